@@ -15,7 +15,7 @@ use shagreen_formats::wav::{SidecarV1, sidecar_path, write_wav};
 
 use crate::cli::output;
 use shagreen_studio::file;
-use shagreen_studio::replace::{is_sidecar, refuse_foreign, refuse_inputs};
+use shagreen_studio::replace::{refuse_foreign_signal, refuse_inputs};
 
 /// Decodes a stream of `codec encode` to a WAV file of 32-bit floats in m/s² at 2000 Hz, with a sidecar file (.json).
 /// `quality` compares it with the original signal.
@@ -38,7 +38,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let beside = sidecar_path(&args.out);
     refuse_inputs(&[&args.out, &beside], &[Some(&args.stream)])?;
-    refuse_foreign(&beside, "the sidecar", is_sidecar)?;
+    refuse_foreign_signal(&args.out)?;
     let bytes = file::read_file(&args.stream, FileKind::Recording)?;
     let read = read_stream(&bytes).with_context(|| file::in_file(&args.stream))?;
     for warning in &read.warnings {

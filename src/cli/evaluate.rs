@@ -17,6 +17,7 @@ use shagreen_formats::library::Library;
 
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Progress};
+use crate::cli::quantity::count;
 use crate::cli::quantity::within;
 use shagreen_studio::figure_files::{check_figures, figure_files, write_together};
 use shagreen_studio::file;
@@ -36,7 +37,7 @@ pub(crate) struct Args {
     blend: Modes,
     /// Number of textures whose rendered signals are compared, in addition to the models of all textures; 0 renders
     /// none. Default: all.
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = count(0..=1000))]
     signals: Option<usize>,
     /// Duration of each rendered signal, in s.
     #[arg(long, value_name = "S", value_parser = signal_secs, default_value = "16")]

@@ -8,17 +8,17 @@ use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::wav::TraceV1;
 
 use crate::cli::output;
-use crate::cli::quantity::quantity;
+use crate::cli::quantity::{force, quantity, speed};
 use crate::cli::stroke::{self, StrokeContacts};
 use crate::cli::stroke_args::StrokeArgs;
 
 #[derive(clap::Args)]
 pub(crate) struct MotionArgs {
     /// Tip speed, in mm/s.
-    #[arg(long, value_name = "V", value_parser = quantity, conflicts_with = "stroke")]
+    #[arg(long, value_name = "V", value_parser = speed, conflicts_with = "stroke")]
     speed: Option<f64>,
     /// Normal force, in N.
-    #[arg(long, value_name = "F", value_parser = quantity, conflicts_with = "stroke")]
+    #[arg(long, value_name = "F", value_parser = force, conflicts_with = "stroke")]
     force: Option<f64>,
     /// Duration, in s.
     #[arg(long, value_name = "S", value_parser = quantity, conflicts_with = "stroke")]

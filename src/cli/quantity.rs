@@ -1,5 +1,7 @@
 //! Parsers of quantities on the command line: finite numbers that are not negative.
 
+use shagreen_core::texture::{FORCES_N, SPEEDS_MPS};
+
 /// Parses a finite number of at least 0.
 pub(crate) fn quantity(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
@@ -16,6 +18,16 @@ pub(crate) fn within(text: &str, range: &std::ops::RangeInclusive<f64>, unit: &s
     } else {
         Err(format!("it must be {} to {} {unit}", range.start(), range.end()))
     }
+}
+
+/// Parses a tip speed in mm/s, up to the highest that a texture model may have.
+pub(crate) fn speed(text: &str) -> Result<f64, String> {
+    within(text, &(0.0..=1e3 * *SPEEDS_MPS.end()), "mm/s")
+}
+
+/// Parses a normal force in N, up to the highest that a texture model may have.
+pub(crate) fn force(text: &str) -> Result<f64, String> {
+    within(text, &(0.0..=*FORCES_N.end()), "N")
 }
 
 /// Returns a parser of a count within a range.

@@ -14,7 +14,7 @@ use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
 use crate::cli::motion::{Motion, MotionArgs, motion};
 use crate::cli::output::{self, Printed, Progress};
 use crate::cli::target::SoundArgs;
-use shagreen_studio::replace::{is_sidecar, refuse_foreign, refuse_inputs};
+use shagreen_studio::replace::{refuse_foreign_signal, refuse_inputs};
 use shagreen_studio::sound::Sound;
 use shagreen_studio::tap_transients::add_tap_transients;
 
@@ -51,7 +51,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     };
     let beside = sidecar_path(&args.out);
     refuse_inputs(&[&args.out, &beside], &[motion.stroke_path(), args.sound.library_path()])?;
-    refuse_foreign(&beside, "the signal's sidecar", is_sidecar)?;
+    refuse_foreign_signal(&args.out)?;
     wav::check_length((motion.seconds() * f64::from(rate_hz)).round() as u64)?;
     chosen.note_limits(&library, &motion.trace(), &Printed);
     let mut samples = samples(args, &library, &chosen, &motion, rate_hz)?;

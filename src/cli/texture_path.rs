@@ -12,7 +12,7 @@ use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library,
 use crate::cli::blending::BlendArgs;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed};
-use crate::cli::quantity::quantity;
+use crate::cli::quantity::within;
 use crate::cli::target::parse_point;
 use crate::cli::words::words;
 use shagreen_studio::authoring::authoring;
@@ -50,9 +50,12 @@ pub(crate) struct Args {
 /// Distance of neighboring textures of a path above which a warning is printed, in points of the axes.
 const COARSE: f64 = 8.0;
 
+/// Range of the place of a point along a stroke, in mm or s.
+const ALONG: std::ops::RangeInclusive<f64> = 0.0..=1e6;
+
 fn parse_stop(text: &str) -> Result<(SpacePoint, f64), String> {
     let (at, along) = text.split_once('@').ok_or("write RS,HS@X as in 30,70@0")?;
-    Ok((parse_point(at)?, quantity(along.trim())?))
+    Ok((parse_point(at)?, within(along.trim(), &ALONG, "mm or s")?))
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {

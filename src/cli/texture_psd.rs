@@ -10,7 +10,7 @@ use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::thresholds::ThresholdKind;
 
 use crate::cli::output::{self, Printed};
-use crate::cli::quantity::quantity;
+use crate::cli::quantity::{force, speed};
 use crate::cli::target::SoundArgs;
 use crate::cli::words::words;
 use shagreen_studio::near_names::unknown_texture;
@@ -22,10 +22,10 @@ pub(crate) struct Args {
     #[command(flatten)]
     sound: SoundArgs,
     /// Tip speed, in mm/s.
-    #[arg(long, value_name = "V", value_parser = quantity)]
+    #[arg(long, value_name = "V", value_parser = speed)]
     speed: f64,
     /// Normal force, in N.
-    #[arg(long, value_name = "F", value_parser = quantity)]
+    #[arg(long, value_name = "F", value_parser = force)]
     force: f64,
     /// Number of frequencies.
     #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u32).range(2..=65_536))]

@@ -71,6 +71,9 @@ pub(crate) struct FrameTimes {
 
 /// Opens the window with `open_window`; `started` is the start time of the program.
 pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> anyhow::Result<()> {
+    if let Some(file) = args.file.as_deref().filter(|file| built_in(file).is_none() && !file.exists()) {
+        bail!("there is no command and no file \"{}\"; `shagreen --help` lists the commands", file.display());
+    }
     let is_unset = |name: &str| std::env::var_os(name).is_none_or(|value| value.is_empty());
     if cfg!(target_os = "linux") && is_unset("DISPLAY") && is_unset("WAYLAND_DISPLAY") {
         bail!(

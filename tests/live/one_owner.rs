@@ -46,7 +46,7 @@ fn a_second_program_on_an_output_is_refused_or_takes_over() {
             assert_eq!(refused.status.code(), Some(1));
             let process = format!("another Shagreen (process {}) plays on the output", first.id());
             let text = said(&refused);
-            assert!(text.contains(&process) && text.contains("--take-over"), "{text}");
+            assert!(text.contains(&process) && text.contains("take the output over"), "{text}");
         }
         let second = loud(server, &["--seconds", "2", "--output", "pulse:ci", "--take-over"]);
         let first = first.wait_with_output().unwrap();

@@ -4,6 +4,7 @@
 
 mod crates;
 mod cycles;
+mod file_reads;
 mod rooms;
 mod source_tree;
 mod unsafe_code;

@@ -153,7 +153,7 @@ impl Monitor {
         if self.loss.is_none() {
             self.loss = self.losses.pop().ok(); // Empty: the device is not lost.
             if self.loss.is_none() && self.shared.given_up.load(Ordering::Relaxed) {
-                self.loss = Some(DeviceError::new(DeviceErrorKind::Lost, TAKEN_OVER));
+                self.loss = Some(DeviceError::new(DeviceErrorKind::Claimed, TAKEN_OVER));
             }
         }
         self.loss.as_ref()

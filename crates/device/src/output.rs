@@ -69,6 +69,11 @@ pub fn open(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceE
     Ok((handle, running.claimed_by(claim)?))
 }
 
+/// Whether two ids lead to the same output, which can be open only once.
+pub fn is_same_output(first: &str, second: &str) -> bool {
+    first == second || claimed_id(first) == claimed_id(second)
+}
+
 /// Id under which an output is claimed. An ALSA route to the sound server is the server's default output.
 fn claimed_id(id: &str) -> Cow<'_, str> {
     #[cfg(target_os = "linux")]

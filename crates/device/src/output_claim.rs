@@ -18,8 +18,8 @@ use crate::link::Shared;
 
 /// Interval at which the owner looks for a request, and the newcomer for the release.
 const POLL: Duration = Duration::from_millis(50);
-/// Time between silence and release, so that the last block before it has been played.
-const LET_IT_PLAY: Duration = Duration::from_millis(100);
+/// Time that an owner has to close the device after it was silenced.
+const PATIENCE_WITH_OWNER: Duration = Duration::from_secs(3);
 /// Time that an owner has to release the output.
 const PATIENCE: Duration = Duration::from_secs(5);
 
@@ -53,8 +53,7 @@ impl Claim {
                 format!("the other Shagreen{process} does not release the output `{id}`; close it")
             } else {
                 format!(
-                    "another Shagreen{process} plays on the output `{id}`; close it, or take over the output \
-                     (`--take-over`)"
+                    "another Shagreen{process} plays on the output `{id}`; close it, or take the output over"
                 )
             };
             DeviceError::new(DeviceErrorKind::Claimed, message)
@@ -93,7 +92,9 @@ impl Claim {
             while let Err(RecvTimeoutError::Timeout) = stopped.recv_timeout(POLL) {
                 if request.exists() {
                     shared.give_up();
-                    std::thread::sleep(LET_IT_PLAY);
+                    // The device is closed before the lock is released, because some can be opened only once. An owner
+                    // that does not close it is silent from now on.
+                    stopped.recv_timeout(PATIENCE_WITH_OWNER).ok();
                     break;
                 }
             }
@@ -126,6 +127,15 @@ fn open_in(folder: &std::path::Path, lock: &std::path::Path) -> io::Result<File>
     #[cfg(unix)]
     std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
     builder.create(folder)?;
+    #[cfg(unix)]
+    {
+        // In a shared temporary folder, another user could have made it.
+        use std::os::unix::fs::PermissionsExt as _;
+        let metadata = fs::symlink_metadata(folder)?;
+        if !metadata.is_dir() || metadata.permissions().mode() & 0o022 != 0 {
+            return Err(io::ErrorKind::PermissionDenied.into());
+        }
+    }
     OpenOptions::new().create(true).truncate(false).write(true).open(lock)
 }
 
@@ -151,7 +161,7 @@ fn file_stem(id: &str) -> String {
 mod tests {
     use super::{Claim, DeviceErrorKind, file_stem};
     use crate::link::link;
-    use std::time::{Duration, Instant};
+    use std::time::Duration;
 
     #[test]
     fn an_output_has_one_owner_at_a_time() {
@@ -162,7 +172,8 @@ mod tests {
         assert_eq!(error.kind(), DeviceErrorKind::Claimed);
         let text = error.to_string();
         assert!(
-            text.contains(&format!("process {}", std::process::id())) && text.contains("--take-over"),
+            text.contains(&format!("process {}", std::process::id()))
+                && text.contains("take the output over"),
             "{text}"
         );
         // Another output is free.
@@ -179,9 +190,15 @@ mod tests {
         let claim = |take_over| Claim::in_folder(folder.path(), "x", take_over);
         let (reporter, mut monitor) = link();
         let guard = claim(false).unwrap().unwrap().guard(reporter.shared.clone()).unwrap();
-        let begun = Instant::now();
-        let second = claim(true).unwrap().unwrap();
-        assert!(begun.elapsed() < Duration::from_secs(3));
+        let second = std::thread::scope(|scope| {
+            let second = scope.spawn(|| claim(true).unwrap().unwrap());
+            while !reporter.shared.is_lost() {
+                std::thread::yield_now();
+            }
+            assert!(!second.is_finished(), "the owner has not closed its device yet");
+            drop(guard);
+            second.join().unwrap()
+        });
         assert!(reporter.shared.is_lost());
         let loss = monitor.loss().unwrap().to_string();
         assert!(loss.contains("taken over"), "{loss}");
@@ -190,7 +207,6 @@ mod tests {
         let _second = second.guard(reporter.shared.clone()).unwrap();
         std::thread::sleep(Duration::from_millis(200));
         assert!(!reporter.shared.is_lost());
-        drop(guard);
         assert!(claim(false).is_err());
     }
 

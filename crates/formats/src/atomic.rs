@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use tempfile::{NamedTempFile, TempPath};
 
@@ -176,11 +176,23 @@ fn sweep_older(folder: &Path, age: Duration) {
     // A folder that cannot be read is not swept; writing to it may still be possible.
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let is_ours = entry.file_name().to_str().is_some_and(|name| name.starts_with(PREFIX));
-        let is_old = || entry.metadata().ok()?.modified().ok()?.elapsed().ok().map(|since| since >= age);
+        let is_old = || changed(&entry.metadata().ok()?)?.elapsed().ok().map(|since| since >= age);
         if is_ours && entry.file_type().is_ok_and(|kind| kind.is_file()) && is_old() == Some(true) {
             fs::remove_file(entry.path()).ok(); // Another process may have removed it.
         }
     }
+}
+
+/// Time at which a file was made or changed. A backup is a second name of an old file, so on Unix the time of the last
+/// change of its names counts.
+fn changed(metadata: &fs::Metadata) -> Option<SystemTime> {
+    #[cfg(unix)]
+    {
+        let secs = std::os::unix::fs::MetadataExt::ctime(metadata);
+        SystemTime::UNIX_EPOCH.checked_add(Duration::from_secs(u64::try_from(secs).ok()?))
+    }
+    #[cfg(not(unix))]
+    metadata.modified().ok()
 }
 
 fn folder_of(path: &Path) -> &Path {

@@ -3,7 +3,7 @@
 //! A project may name any path as its library, and a user may drop anything on the window. Reading a device such as
 //! `/dev/zero` would fill the memory, and opening a pipe would wait forever.
 
-use std::fs::{File, OpenOptions};
+use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, ErrorKind, Read as _};
 use std::path::Path;
 
@@ -50,7 +50,7 @@ pub fn read(path: &Path, kind: FileKind) -> io::Result<Vec<u8>> {
     let n_bytes = file.metadata()?.len();
     let mut bytes = Vec::new();
     if n_bytes <= kind.max_bytes() {
-        bytes.reserve(n_bytes as usize);
+        bytes.try_reserve_exact(n_bytes as usize)?;
         // A file may grow while it is read.
         file.take(kind.max_bytes() + 1).read_to_end(&mut bytes)?;
     }
@@ -67,22 +67,38 @@ pub fn read(path: &Path, kind: FileKind) -> io::Result<Vec<u8>> {
 /// # Errors
 /// As [`read`], except for the size.
 pub fn open(path: &Path) -> io::Result<File> {
-    let mut options = OpenOptions::new();
-    options.read(true);
+    open_with(OpenOptions::new().read(true), path)
+}
+
+/// Opens a regular file to lock it; some network file systems lock only files that are open for writing.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_to_lock(path: &Path) -> io::Result<File> {
+    open_with(OpenOptions::new().read(true).write(true), path).or_else(|_| open(path))
+}
+
+fn open_with(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
+    // Before opening, because Windows reports a folder as one without permission.
+    check(&std::fs::metadata(path)?)?;
     #[cfg(unix)]
     std::os::unix::fs::OpenOptionsExt::custom_flags(
-        &mut options,
+        options,
         rustix::fs::OFlags::NONBLOCK.bits().cast_signed(),
     );
     let file = options.open(path)?;
-    let metadata = file.metadata()?;
+    check(&file.metadata()?)?;
+    Ok(file)
+}
+
+fn check(metadata: &Metadata) -> io::Result<()> {
     if metadata.is_dir() {
         return Err(io::Error::new(ErrorKind::IsADirectory, "it is a folder, not a file"));
     }
     if !metadata.is_file() {
         return Err(io::Error::new(ErrorKind::InvalidInput, "it is a pipe or a device, not a file"));
     }
-    Ok(file)
+    Ok(())
 }
 
 #[cfg(test)]

@@ -56,7 +56,7 @@ pub(crate) fn text(bytes: &[u8]) -> Result<Cow<'_, str>, TableTextError> {
     if let Some(at) = text.find('\0') {
         return Err(TableTextError::Zero { line: line_at(&text.as_bytes()[..at]) });
     }
-    match text.split('\n').position(|line| line.len() > MAX_LINE_BYTES) {
+    match text.split(['\n', '\r']).position(|line| line.len() > MAX_LINE_BYTES) {
         Some(index) => Err(TableTextError::LongLine { line: index as u64 + 1 }),
         None => Ok(text),
     }

@@ -35,7 +35,7 @@ pub fn update<E>(
 /// replaced, so there is no lock.
 fn lock(path: &Path) -> io::Result<Option<File>> {
     loop {
-        let file = match bounded_file::open(path) {
+        let file = match bounded_file::open_to_lock(path) {
             Ok(file) => file,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(error),

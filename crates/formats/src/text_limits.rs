@@ -34,9 +34,24 @@ pub(crate) fn check(what: &'static str, text: &str, most: usize) -> Result<(), T
     if n <= most { Ok(()) } else { Err(TooLong { what, begin: text.chars().take(20).collect(), n, most }) }
 }
 
+/// Returns a text without what exceeds `most` characters, so that a file with it can be read again.
+pub fn begin_of(text: String, most: usize) -> String {
+    match text.char_indices().nth(most) {
+        Some((end, _)) => text[..end].to_owned(),
+        None => text,
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::check;
+    use super::{begin_of, check};
+
+    #[test]
+    fn what_is_cut_off_passes_the_check() {
+        assert_eq!(begin_of("äöü".to_owned(), 2), "äö");
+        assert_eq!(begin_of("äöü".to_owned(), 3), "äöü");
+        assert!(check("it", &begin_of("ä".repeat(50), 10), 10).is_ok());
+    }
 
     #[test]
     fn characters_count_and_not_bytes() {

@@ -71,8 +71,9 @@ impl GuidePage {
     }
 }
 
-/// Returns the page with this id.
+/// Returns the page with this id, which may end in `.md` as in a link.
 pub fn page(id: &str) -> Option<&'static GuidePage> {
+    let id = id.strip_suffix(".md").unwrap_or(id);
     PAGES.iter().find(|page| page.id == id)
 }
 
@@ -97,6 +98,6 @@ mod tests {
             assert!(page.text.starts_with("# ") && !page.title().is_empty(), "{}", page.id);
             assert!(page.text.split_whitespace().count() < 1000, "{} is too long", page.id);
         }
-        assert!(page("none").is_none());
+        assert!(page("none").is_none() && page("projects.md").is_some());
     }
 }

@@ -44,6 +44,24 @@ pub fn refuse_foreign(output: &Path, what: &str, is_ours: impl Fn(&[u8]) -> bool
     );
 }
 
+/// Returns whether a signal may replace the file at `path` with these bytes: only a WAV file that has a sidecar of this
+/// program next to it.
+pub fn is_own_signal(path: &Path, bytes: &[u8]) -> bool {
+    let is_wave = bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WAVE");
+    is_wave
+        && bounded_file::read(&wav::sidecar_path(path), FileKind::Small)
+            .is_ok_and(|beside| is_sidecar(&beside))
+}
+
+/// Returns an error if a signal would replace a file that is no signal of this program, or whose sidecar is another file.
+///
+/// # Errors
+/// As [`refuse_foreign`].
+pub fn refuse_foreign_signal(out: &Path) -> anyhow::Result<()> {
+    refuse_foreign(out, "the signal", |bytes| is_own_signal(out, bytes))?;
+    refuse_foreign(&wav::sidecar_path(out), "the signal's sidecar", is_sidecar)
+}
+
 /// Returns whether a file is the sidecar of a signal.
 pub fn is_sidecar(bytes: &[u8]) -> bool {
     has_format(bytes, wav::FORMAT)

@@ -13,6 +13,8 @@ pub enum Part {
     Notes,
     /// Snapshots.
     Snapshots,
+    /// Stars, the order of the list, and fields of other versions.
+    Other,
 }
 
 /// How a part was changed since the project was read.

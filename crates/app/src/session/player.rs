@@ -13,8 +13,9 @@ use shagreen_core::units::Hertz;
 use shagreen_device::audio_input::{InputInfo, list_inputs};
 use shagreen_device::controls::{Controls, Drive, Input, Takeover};
 use shagreen_device::engine::{Handle, LoadError, LoadReason, SLOTS};
+use shagreen_device::error::DeviceErrorKind;
 use shagreen_device::live::LiveInput;
-use shagreen_device::output::{OpenOptions, OutputInfo, OutputKind, Running, list_outputs};
+use shagreen_device::output::{OpenOptions, OutputInfo, OutputKind, Running, is_same_output, list_outputs};
 use shagreen_device::serial::list_serial_ports;
 use shagreen_device::signal::{Signal, SignalError};
 use shagreen_device::status::{LinkState, Status};
@@ -173,7 +174,8 @@ impl Player {
 
     /// Opens an output, after the opening in progress.
     fn begin(&mut self, request: Request) {
-        let is_same = matches!(&request.choice, OutputChoice::Id(id) if self.output_id.as_ref() == Some(id));
+        let is_open = |id: &String| self.output_id.as_ref().is_some_and(|open| is_same_output(id, open));
+        let is_same = matches!(&request.choice, OutputChoice::Id(id) if is_open(id));
         if is_same || self.status.is_some_and(|s| s.state == LinkState::Lost) {
             // Some devices can be opened only once, and the open output may drive another actuator.
             self.close();
@@ -196,6 +198,7 @@ impl Player {
             self.listing_inputs = None;
         }
         let opened = self.take_opened(scope);
+        let mut is_taken_over = false;
         if let Some(handle) = &mut self.handle {
             handle.collect();
             let status = handle.status();
@@ -205,6 +208,7 @@ impl Player {
             self.status = Some(status);
             if let Some(loss) = handle.loss() {
                 self.message = Some(loss.to_string());
+                is_taken_over = loss.kind() == DeviceErrorKind::Claimed;
             }
             let mut samples = [0.0; 4096];
             loop {
@@ -214,6 +218,11 @@ impl Player {
                     break;
                 }
             }
+        }
+        if is_taken_over {
+            // The newcomer waits until the device is closed.
+            self.close();
+            self.claimed = self.output_id.clone();
         }
         opened
     }

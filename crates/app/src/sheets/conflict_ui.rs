@@ -22,12 +22,13 @@ pub(crate) fn conflict_ui(ctx: &Context, conflict: &Conflict, project: &str) -> 
         ui.add_space(GAP);
         ui.add(Label::new(strings::changed_since(project)).wrap());
         ui.add_space(GAP);
-        if conflict.differences.is_empty() {
-            ui.label(strings::NO_PROJECT);
+        let differences = conflict.differences.as_deref();
+        if differences.is_none_or(<[_]>::is_empty) {
+            ui.label(if differences.is_none() { strings::NO_PROJECT } else { strings::NO_DIFFERENCE });
         } else {
             ScrollArea::vertical().max_height(LIST_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
                 Grid::new("differences").num_columns(2).striped(true).show(ui, |ui| {
-                    for difference in &conflict.differences {
+                    for difference in differences.unwrap_or_default() {
                         ui.label(strings::part(&difference.part));
                         ui.label(RichText::new(strings::change(difference.change)).color(t.text_weak));
                         ui.end_row();

@@ -15,9 +15,9 @@ pub struct Conflict {
     pub path: PathBuf,
     /// SHA-256 of its present content.
     pub sha256: String,
-    /// Differences between the open project, the file, and the project as it was read; empty if the file is no project
+    /// Differences between the open project, the file, and the project as it was read; `None` if the file is no project
     /// any more.
-    pub differences: Vec<Difference>,
+    pub differences: Option<Vec<Difference>>,
 }
 
 /// One difference.
@@ -56,7 +56,13 @@ pub(crate) fn differences(base: Option<&Project>, here: &Project, there: &Projec
     add(Part::Space, compared(base, here, there, |p| (&p.space, &p.axes)));
     add(Part::Notes, compared(base, here, there, |p| &p.notes));
     add(Part::Snapshots, compared(base, here, there, |p| &p.snapshots));
+    add(Part::Other, compared(base, here, there, |p| (&p.starred, &p.unknown, order(p))));
     all
+}
+
+/// Keys of the authored textures, in the order of the list.
+fn order(project: &Project) -> Vec<u32> {
+    project.authored.iter().map(|texture| texture.key).collect()
 }
 
 fn by_key(project: &Project) -> BTreeMap<u32, &Arc<AuthoredTexture>> {
@@ -115,6 +121,10 @@ mod tests {
             differences(Some(&base), here, there).into_iter().map(|d| (d.part, d.change)).collect()
         };
         let texture = |name: &str, change| vec![(Part::Texture(name.to_owned()), change)];
+        // The order of the list differs too where a texture was added or deleted.
+        let found = |here: &Project, there: &Project| {
+            found(here, there).into_iter().filter(|(part, _)| *part != Part::Other).collect::<Vec<_>>()
+        };
         assert_eq!(found(&base, &base), []);
         assert_eq!(found(&renamed("Elm"), &base), texture("Elm", Change::Here));
         assert_eq!(found(&base, &renamed("Elm")), texture("Oak", Change::There));

@@ -172,7 +172,7 @@ impl Document {
             let bytes = write_project(&content, &folder_of(&to), CREATED_BY);
             let sha256 = sha256_hex(&bytes);
             let written = update(&to, FileKind::Document, |present| match present {
-                Some(present) if !expected.allows(present) => {
+                Some(present) if present != bytes && !expected.allows(present) => {
                     Err(conflict(&to, base.as_ref(), &content, present))
                 }
                 _ => Ok(bytes),
@@ -232,12 +232,17 @@ impl Document {
 
 /// Differences between the open project and the content of its changed file.
 fn conflict(path: &Path, base: Option<&Project>, here: &Project, present: &[u8]) -> Conflict {
-    let read = |library: &Path| bounded_file::read(library, FileKind::Document);
-    // A file that is no project any more has no differences to list.
-    let there = read_project(present, &folder_of(path), &read).ok();
-    let differences = there.map(|there| differences(base, here, &there.value)).unwrap_or_default();
+    let library = |library: &Path| bounded_file::read(library, FileKind::Document);
+    let read = |bytes: &[u8]| read_project(bytes, &folder_of(path), &library).ok().map(|read| read.value);
+    // As they would come back from a file, in which numbers are rounded.
+    let as_read = |project: &Project| read(&write_project(project, &folder_of(path), CREATED_BY));
+    let (base, here) = (base.and_then(as_read), as_read(here).unwrap_or_else(|| here.clone()));
+    let differences = read(present).map(|there| differences(base.as_ref(), &here, &there));
     Conflict { path: path.to_owned(), sha256: sha256_hex(present), differences }
 }
+
+#[cfg(test)]
+mod two_windows;
 
 #[cfg(test)]
 mod tests {
@@ -298,14 +303,22 @@ mod tests {
         assert!(matches!(wait(&mut second), Came::Saved(_)));
         first.save(&renamed("Ash"), path.clone(), &ctx);
         let Came::Conflict(conflict) = wait(&mut first) else { panic!("a conflict") };
-        assert_eq!((conflict.differences.len(), conflict.differences[0].change), (1, Change::Both));
+        let differences = conflict.differences.as_ref().unwrap();
+        assert_eq!((differences.len(), differences[0].change), (1, Change::Both));
+        // The same content is no conflict.
+        first.save(&renamed("Elm"), path.clone(), &ctx);
+        assert!(matches!(wait(&mut first), Came::Saved(_)));
+        second.save(&renamed("Oak"), path.clone(), &ctx);
+        assert!(matches!(wait(&mut second), Came::Saved(_)));
+        first.save(&renamed("Ash"), path.clone(), &ctx);
+        let Came::Conflict(conflict) = wait(&mut first) else { panic!("a conflict") };
         // A recovered project does not know the content of its file.
         let unknown = DocumentFile { path: path.clone(), sha256: None };
         let mut recovered = Document::unsaved(Some(unknown));
         recovered.save(&renamed("Ash"), path.clone(), &ctx);
         assert!(matches!(wait(&mut recovered), Came::Conflict(_)));
         // Overwriting replaces the content that the user has seen, and no later one.
-        second.save(&renamed("Oak"), path.clone(), &ctx);
+        second.save(&renamed("Yew"), path.clone(), &ctx);
         assert!(matches!(wait(&mut second), Came::Saved(_)));
         first.overwrite(&renamed("Ash"), &conflict, &ctx);
         let Came::Conflict(conflict) = wait(&mut first) else { panic!("it changed once more") };

@@ -12,6 +12,7 @@ use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::Picture;
 use shagreen_formats::placed_space::PlacedSpace;
 use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
+use shagreen_formats::text_limits::{MAX_NAME, MAX_NOTES, begin_of};
 
 use crate::strings::edits as strings;
 
@@ -219,9 +220,9 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         }),
         Edit::SetOutside(outside) => change(&mut project, |texture| texture.blend.outside = outside),
         Edit::SetWeights(weights) => change(&mut project, |texture| texture.blend.weights = weights),
-        Edit::Rename(name) => change(&mut project, |texture| texture.name = name),
+        Edit::Rename(name) => change(&mut project, |texture| texture.name = begin_of(name, MAX_NAME)),
         Edit::SetColor(color) => change(&mut project, |texture| texture.color = color),
-        Edit::SetNotes(notes) => change(&mut project, |texture| texture.notes = notes),
+        Edit::SetNotes(notes) => change(&mut project, |texture| texture.notes = begin_of(notes, MAX_NOTES)),
         Edit::SetTags(tags) => change(&mut project, |texture| texture.tags = tags),
         Edit::SetPicture(picture) => change(&mut project, |texture| texture.picture = picture),
         Edit::Remake { at, picture, notes } => {
@@ -249,7 +250,7 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
                 project.snapshots.remove(index);
             }
         }
-        Edit::SetProjectNotes(notes) => project.notes = notes,
+        Edit::SetProjectNotes(notes) => project.notes = begin_of(notes, MAX_NOTES),
         Edit::OpenLibrary(library) => open(&mut project, library),
         Edit::KeepLibraryInside(library) => project.library = library,
         Edit::AddTextures(entries) => project.joined.extend(entries),
@@ -259,7 +260,7 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
                 project.solo = None;
             }
         }
-        Edit::RenameTexture { id, name } => drop(project.renamed.insert(id, name)),
+        Edit::RenameTexture { id, name } => drop(project.renamed.insert(id, begin_of(name, MAX_NAME))),
         Edit::Star { id, is_starred, .. } => {
             if is_starred {
                 project.starred.insert(id);

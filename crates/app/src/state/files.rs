@@ -38,8 +38,10 @@ pub(crate) struct Files {
     pub(crate) after_saving: Option<Leave>,
     /// Project that was read and opens when the present one is left. The path is `None` for a copy.
     pub(crate) waiting: Option<(Box<OpenedProject>, Option<PathBuf>)>,
-    /// Changed file that is read again, after the open project was kept aside.
+    /// Changed file that is read again; the open project is then kept aside.
     pub(crate) reloading: Option<PathBuf>,
+    /// Whether to save once more when the file has been written.
+    pub(crate) saves_again: bool,
     /// Whether the program may close.
     pub(crate) is_closing: bool,
     /// Whether the file being read is the template of a new project.
@@ -70,6 +72,7 @@ impl Files {
             after_saving: None,
             waiting: None,
             reloading: None,
+            saves_again: false,
             is_closing: false,
             is_beginning: false,
         }
@@ -130,7 +133,7 @@ impl Files {
 
     /// Cancels leaving the project.
     pub(crate) fn stay(&mut self) {
-        (self.after_saving, self.waiting) = (None, None);
+        (self.after_saving, self.waiting, self.reloading) = (None, None, None);
     }
 
     /// Discards the recovery file, which belongs to the previous project.

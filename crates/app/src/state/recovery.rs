@@ -112,6 +112,25 @@ impl Recovery {
         private().create_new(true).open(slot.with_extension(LOCK)).map(drop)
     }
 
+    /// Writes the project at once.
+    #[cfg(test)]
+    pub(crate) fn write_now(&mut self, project: &Project, origin: Option<&DocumentFile>) {
+        write(project, &self.slot, origin).unwrap();
+    }
+
+    /// Ends as a killed program does: the lock is released, and the files remain.
+    #[cfg(test)]
+    pub(crate) fn crash(self) {
+        let files = [EXTENSION, ORIGIN, LOCK].map(|ending| self.slot.with_extension(ending));
+        let kept = files.map(|file| (bounded_file::read(&file, FileKind::Document).ok(), file));
+        drop(self);
+        for (bytes, file) in kept {
+            if let Some(bytes) = bytes {
+                fs::write(file, bytes).unwrap();
+            }
+        }
+    }
+
     /// Deletes the slot's files, which belong to the previous project.
     pub(crate) fn restart(&mut self) {
         if let Some((receiver, _)) = self.writing.take() {
@@ -173,7 +192,7 @@ fn leftover(lock_path: &Path) -> Option<Leftover> {
         return None;
     }
     // A pipe in place of the lock must not block the start.
-    let lock = bounded_file::open(lock_path).ok()?;
+    let lock = bounded_file::open_to_lock(lock_path).ok()?;
     lock.try_lock().ok()?;
     let slot = lock_path.with_extension("");
     let Ok(metadata) = fs::metadata(slot.with_extension(EXTENSION)) else {

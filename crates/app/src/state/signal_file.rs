@@ -12,6 +12,7 @@ use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::wav::{SidecarV1, is_sidecar, sidecar_path, write_wav};
 use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
+use shagreen_studio::replace::is_own_signal;
 
 use crate::state::bench_signal::BenchSignal;
 use crate::strings::signal as strings;
@@ -78,10 +79,7 @@ impl SignalFile {
 
     /// Whether a signal may replace a file with these bytes at `path`: only another WAV file with a sidecar.
     pub(crate) fn may_replace(path: &Path, bytes: &[u8]) -> bool {
-        let is_wave = bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WAVE");
-        is_wave
-            && bounded_file::read(&sidecar_path(path), FileKind::Small)
-                .is_ok_and(|beside| is_sidecar(&beside))
+        is_own_signal(path, bytes)
     }
 
     /// Whether the path of the sidecar for a signal at `path` is free or has another sidecar.

@@ -4,9 +4,10 @@ use crate::choices::conflict::{Change, Part};
 
 pub const TITLE: &str = "The project file has changed";
 pub const NO_PROJECT: &str = "The file is no longer a project that can be read.";
+pub const NO_DIFFERENCE: &str = "Only the selection differs.";
 pub const SAVE_AS_HELP: &str = "Saves this project under another name. The changed file stays.";
 pub const RELOAD: &str = "Reload";
-pub const RELOAD_HELP: &str = "Opens the changed file. Your unsaved changes in this window stay in the recovery folder and are offered at the next start.";
+pub const RELOAD_HELP: &str = "Opens the changed file. The project of this window is kept in the recovery folder and is offered at the next start.";
 pub const OVERWRITE: &str = "Overwrite";
 pub const OVERWRITE_HELP: &str =
     "Replaces the changed file by this project. The changes in the file are lost.";
@@ -24,6 +25,7 @@ pub fn part(part: &Part) -> &str {
         Part::Space => "Space",
         Part::Notes => "Project notes",
         Part::Snapshots => "Snapshots",
+        Part::Other => "Stars, order of the list, or other details",
     }
 }
 

@@ -60,23 +60,20 @@ impl Window {
             FileCommand::OpenGallery => self.sheet = Sheet::Gallery(GallerySheet::new()),
             FileCommand::BeginFromGallery(chosen) => self.leave(Leave::Gallery(chosen), ctx),
             FileCommand::Open(path) => {
-                self.files.is_beginning = false;
+                (self.files.is_beginning, self.files.reloading) = (false, None);
                 self.files.document.open(path, ctx);
             }
+            // The file that is being written would count as changed by another window.
+            FileCommand::Save if self.files.document.is_saving() => self.files.saves_again = true,
             FileCommand::Save => match self.files.document.path().map(Path::to_owned) {
                 Some(path) => self.files.document.save(&self.project, path, ctx),
                 None => self.ask_where_to_save(),
             },
             FileCommand::Reload => {
-                if let Sheet::Conflict(conflict) = &self.sheet {
-                    let path = conflict.path.clone();
-                    match self.files.keep_aside(&self.project) {
-                        Ok(()) => self.files.reloading = Some(path.clone()),
-                        // Otherwise the changes would be lost.
-                        Err(reason) => return self.session.say(strings::conflict::not_kept(&reason)),
-                    }
-                    self.sheet = Sheet::Closed;
-                    self.files.document.open(path, ctx);
+                if let Sheet::Conflict(conflict) = std::mem::take(&mut self.sheet) {
+                    self.files.is_beginning = false;
+                    self.files.document.open(conflict.path.clone(), ctx);
+                    self.files.reloading = Some(conflict.path);
                 }
             }
             FileCommand::Overwrite => {
@@ -143,11 +140,15 @@ impl Window {
         // The end of a save operation does not end the reading of a template.
         let is_read = matches!(came, Came::Opened(..) | Came::NotOpened(_));
         let is_beginning = is_read && std::mem::take(&mut self.files.is_beginning);
+        let reloading = if is_read { self.files.reloading.take() } else { None };
         match came {
             Came::Saved(path) => {
                 self.files.settings.note_project(&path);
                 if matches!(&self.sheet, Sheet::Save(sheet) if sheet.is_of_project()) {
                     self.sheet = Sheet::Closed;
+                }
+                if std::mem::take(&mut self.files.saves_again) {
+                    self.carry_out_file(FileCommand::Save, ctx);
                 }
                 // If the project was changed while it was written, the user is asked again.
                 if let Some(leave) = self.files.after_saving.take() {
@@ -155,24 +156,27 @@ impl Window {
                 }
             }
             Came::Conflict(conflict) => {
-                self.files.after_saving = None;
+                (self.files.after_saving, self.files.saves_again) = (None, false);
                 self.sheet = Sheet::Conflict(conflict);
             }
             Came::NotSaved(reason) => {
-                self.files.after_saving = None;
+                (self.files.after_saving, self.files.saves_again) = (None, false);
                 match &mut self.sheet {
                     Sheet::Save(sheet) if sheet.is_of_project() => sheet.say(reason),
                     _ => self.session.say(strings::document::not_saved(&reason)),
                 }
             }
             Came::Opened(Opened::Project(opened), path) => {
-                let is_reload = self.files.reloading.take().is_some_and(|reloading| reloading == path);
+                let is_reload = reloading.is_some_and(|reloading| reloading == path);
                 self.files.waiting = Some((opened, (!is_beginning).then_some(path)));
-                if is_reload {
-                    // The changes were kept aside.
-                    self.go(Leave::Open, ctx);
-                } else {
-                    self.leave(Leave::Open, ctx);
+                // Kept aside only now, so that no change is lost that was made while the file was read.
+                match is_reload.then(|| self.files.keep_aside(&self.project)) {
+                    Some(Ok(())) => self.go(Leave::Open, ctx),
+                    Some(Err(reason)) => {
+                        self.session.say(strings::conflict::not_kept(&reason));
+                        self.leave(Leave::Open, ctx);
+                    }
+                    None => self.leave(Leave::Open, ctx),
                 }
             }
             Came::Opened(Opened::Library(_), path) if is_beginning => {

@@ -10,8 +10,9 @@ use crate::units::Hertz;
 /// about 1 kHz, a transient is only heard.
 pub const TAP_FREQUENCIES_HZ: RangeInclusive<f64> = 1.0..=20_000.0;
 
-/// Valid decay rates of a tap transient, in 1/s. A slower one would drive the actuator for seconds.
-pub const TAP_DECAYS_PER_SEC: RangeInclusive<f64> = SLOWEST_DECAY_PER_SEC..=1e5;
+/// Valid decay rates of a tap transient, in 1/s. The renderer lets none decay more slowly than
+/// [`SLOWEST_DECAY_PER_SEC`], which would drive the actuator for seconds.
+pub const TAP_DECAYS_PER_SEC: RangeInclusive<f64> = 0.5..=1e5;
 
 /// Valid amplitudes of a tap transient, in m/s².
 pub const TAP_AMPLITUDES_MPS2: RangeInclusive<f64> = 0.0..=MAX_AMPLITUDE_MPS2;
@@ -84,14 +85,21 @@ impl Tap {
         let within = |value: f64, range: &RangeInclusive<f64>| value.clamp(*range.start(), *range.end());
         let frequency = Hertz(within(self.frequency.0, &TAP_FREQUENCIES_HZ));
         let decay_per_sec = within(self.decay_per_sec, &TAP_DECAYS_PER_SEC);
-        let strongest = (4.0 * decay_per_sec * MAX_TAP_ENERGY).sqrt();
-        let amplitude_mps2 = within(self.amplitude_mps2, &TAP_AMPLITUDES_MPS2).min(strongest);
-        Self { frequency, decay_per_sec, amplitude_mps2 }
+        // Slightly less than the limit, so that rounding in a file does not exceed it.
+        let strongest = 0.999 * (4.0 * decay_per_sec.max(SLOWEST_DECAY_PER_SEC) * MAX_TAP_ENERGY).sqrt();
+        let amplitude_mps2 = within(self.amplitude_mps2, &TAP_AMPLITUDES_MPS2);
+        let bounded = Self { frequency, decay_per_sec, amplitude_mps2 };
+        if bounded.energy() > MAX_TAP_ENERGY {
+            Self { amplitude_mps2: strongest, ..bounded }
+        } else {
+            bounded
+        }
     }
 
-    /// Approximate energy `A²/4B` in (m/s²)²·s: the integral of the squared acceleration over many periods.
+    /// Approximate energy `A²/4B` in (m/s²)²·s as it is rendered: the integral of the squared acceleration over many
+    /// periods.
     pub fn energy(&self) -> f64 {
-        self.amplitude_mps2.powi(2) / (4.0 * self.decay_per_sec)
+        self.amplitude_mps2.powi(2) / (4.0 * self.decay_per_sec.max(SLOWEST_DECAY_PER_SEC))
     }
 
     /// Acceleration in m/s² at a time in seconds since contact; zero before contact.
@@ -128,7 +136,7 @@ mod tests {
         for bad in [0.0, 1e300, f64::NAN, -3.0] {
             assert!(matches!(Tap { frequency: Hertz(bad), ..WOOD }.checked(), Err(TapError::Value { .. })));
         }
-        for bad in [1e-9, 0.0, f64::INFINITY, f64::NAN] {
+        for bad in [1e-9, 0.0, 0.4, f64::INFINITY, f64::NAN] {
             assert!(matches!(Tap { decay_per_sec: bad, ..WOOD }.checked(), Err(TapError::Value { .. })));
         }
         let loud = Tap { amplitude_mps2: 3e38, ..WOOD }.checked().unwrap_err().to_string();
@@ -150,9 +158,14 @@ mod tests {
         fn bounded_taps_pass_the_check(f in -1e6_f64..1e6, b in -1e6_f64..1e6, a in -1e6_f64..1e6) {
             let tap = Tap { frequency: Hertz(f), decay_per_sec: b, amplitude_mps2: a };
             let bounded = tap.bounded();
-            // Rounding in the square root.
-            let slightly_less = Tap { amplitude_mps2: bounded.amplitude_mps2 * (1.0 - 1e-12), ..bounded };
-            prop_assert!(slightly_less.checked().is_ok(), "{bounded:?}");
+            // As after rounding to six digits in a file.
+            let rounded = |x: f64| format!("{x:.5e}").parse::<f64>().unwrap();
+            let in_file = Tap {
+                frequency: Hertz(rounded(bounded.frequency.0)),
+                decay_per_sec: rounded(bounded.decay_per_sec),
+                amplitude_mps2: rounded(bounded.amplitude_mps2),
+            };
+            prop_assert!(in_file.checked().is_ok(), "{bounded:?}");
             if tap.checked().is_ok() {
                 prop_assert_eq!(bounded, tap);
             }

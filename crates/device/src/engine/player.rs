@@ -30,6 +30,10 @@ pub(super) struct Landing {
     pub(super) strength: f32,
 }
 
+/// Time after the begin of a tick at which the tick has certainly been requested, in seconds. The filters after it delay
+/// its samples by more.
+const REQUEST_SECS: f64 = 5e-5;
+
 /// The input with its clock, and the fade from the previous input.
 #[derive(Debug)]
 pub(super) struct Player {
@@ -197,6 +201,13 @@ impl Player {
         self.contact_secs
     }
 
+    /// Extends the contact up to this time of the stream's clock.
+    fn note_touched(&mut self, stream_secs: f64) {
+        if let Some((_, touched_secs)) = &mut self.contact_secs {
+            *touched_secs = touched_secs.max(stream_secs);
+        }
+    }
+
     /// Notes that the tip is in contact at this time of the stream's clock, such as a tap between two ticks.
     pub(super) fn note_contact(&mut self, stream_secs: f64) {
         let was_touching = self.touch.contact.force_n > 0.0;
@@ -204,7 +215,8 @@ impl Player {
             Some((landed_secs, touched_secs)) if was_touching => {
                 (landed_secs.min(stream_secs), touched_secs.max(stream_secs))
             }
-            _ => (stream_secs, stream_secs),
+            Some((_, touched_secs)) => (stream_secs, stream_secs.max(touched_secs)),
+            None => (stream_secs, stream_secs),
         });
     }
 
@@ -329,7 +341,10 @@ impl ContactSource for Player {
             _ => self.place.set(f64::from(touch.x_m)),
         }
         if touch.contact.force_n > 0.0 {
-            self.note_contact(time_secs);
+            // The level rises from zero within the tick that ends now.
+            let was_touching = self.touch.contact.force_n > 0.0;
+            self.note_contact(if was_touching { time_secs } else { time_secs - step_secs + REQUEST_SECS });
+            self.note_touched(time_secs);
         }
         self.touch = touch;
         touch.contact

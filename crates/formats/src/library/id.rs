@@ -1,5 +1,7 @@
 //! Unique names and identifiers for textures that are added to a library, derived from file names.
 
+use crate::text_limits::{MAX_ID, begin_of};
+
 /// Derives a name from a file name: without extension, with spaces between words, and capitalized.
 pub fn name_from_file(file_name: &str) -> String {
     let stem = file_name.rsplit_once('.').map_or(file_name, |(stem, _)| stem);
@@ -15,6 +17,8 @@ pub fn name_from_file(file_name: &str) -> String {
 pub fn id_from_name(name: &str) -> String {
     let words = name.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
     let id = words.map(str::to_lowercase).collect::<Vec<_>>().join("-");
+    // A number may follow, so that the identifier is free.
+    let id = begin_of(id, MAX_ID - 20);
     if id.is_empty() { "texture".to_owned() } else { id }
 }
 

@@ -64,7 +64,6 @@ fn checked(wire: LibraryV1, minor: u32) -> Result<Imported<Library>, LibraryErro
         if id.is_empty() || id.contains(|c: char| c.is_whitespace() || c.is_control()) {
             return Err(LibraryError::Id { number: index + 1, id: id.clone() });
         }
-        check_texts(texture)?;
         if !ids.insert(id.clone()) {
             return Err(LibraryError::Duplicate { id: id.clone() });
         }
@@ -131,6 +130,7 @@ fn check_units(units: &UnitsV1) -> Result<(), LibraryError> {
 }
 
 pub(crate) fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
+    check_texts(&wire)?;
     let id = wire.id;
     let mut unknown = Unknown { texture: wire.unknown, ..Unknown::default() };
     let place = wire.space.map(|space| place(&id, space, &mut unknown)).transpose()?;

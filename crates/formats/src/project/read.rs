@@ -146,7 +146,7 @@ fn library(
         ProjectLibraryV1 { file: Some(file), sha256: told, .. } => {
             let stated = path_json::from_json(&file)
                 .ok_or_else(|| ProjectError::Damaged { reason: "`library.file` is not a path".to_owned() })?;
-            if is_on_network(&stated) {
+            if cfg!(windows) && is_on_network(&stated) && !is_on_network(folder) {
                 return Err(ProjectError::Network { path: stated });
             }
             let path = folder.join(stated);
@@ -166,10 +166,29 @@ fn library(
 /// Maximum number of points of a drawn path.
 const MAX_PATH_POINTS: usize = 10_000;
 
-/// Whether a path names another computer. Opening such a path would send the user's name and password hash there.
+/// Whether a path of Windows names another computer. Opening such a path would send the user's name and password hash
+/// there.
 fn is_on_network(path: &Path) -> bool {
     let begin = path.as_os_str().as_encoded_bytes();
-    matches!(begin, [b'/' | b'\\', b'/' | b'\\', ..])
+    // `\\\\?\\C:\\…` and `\\\\.\\…` are on this computer.
+    let is_local = matches!(begin, [_, _, b'?' | b'.', _, _, b':', ..] | [_, _, b'.', ..]);
+    matches!(begin, [b'/' | b'\\', b'/' | b'\\', ..]) && !is_local
+}
+
+#[cfg(test)]
+#[test]
+fn paths_of_other_computers_are_known() {
+    for (path, expected) in [
+        (r"\\server\share\woods.json", true),
+        ("//server/share/woods.json", true),
+        (r"\\?\UNC\server\share", true),
+        (r"\\?\C:\woods.json", false),
+        (r"C:\woods.json", false),
+        ("/home/woods.json", false),
+        ("woods.json", false),
+    ] {
+        assert_eq!(is_on_network(Path::new(path)), expected, "{path}");
+    }
 }
 
 /// Reads a library from a separate file.

@@ -12,6 +12,7 @@
     reason = "a test may panic on an unexpected result, and reports what it did"
 )]
 
+mod documents;
 mod judgments;
 mod memory;
 mod mutate;

@@ -9,6 +9,10 @@ use shagreen_formats::stroke_csv::read_stroke_csv;
 use shagreen_formats::svc::{PenFlavor, PenMapping, pen_samples, read_svc};
 use shagreen_formats::wav::SidecarV1;
 
+use crate::documents::{
+    actuator_seeds, hid_seeds, project_seeds, read_a_hid_text, read_a_project, read_an_actuator,
+    read_some_settings, settings_seeds,
+};
 use crate::judgments::{
     places_seeds, ratings_seeds, read_a_sorting, read_some_places, read_some_ratings, sorting_seeds,
     table_bombs as judgment_bombs,
@@ -125,6 +129,31 @@ pub(crate) const READERS: &[Reader] = &[
         repair: Some(repair_stream),
         bombs: stream_bombs,
         read: read_a_stream,
+    },
+    Reader { name: "project", seeds: project_seeds, repair: None, bombs: json_bombs, read: read_a_project },
+    Reader {
+        name: "settings",
+        seeds: settings_seeds,
+        repair: None,
+        bombs: json_bombs,
+        read: read_some_settings,
+    },
+    Reader {
+        name: "actuator",
+        seeds: actuator_seeds,
+        repair: None,
+        bombs: toml_bombs,
+        read: read_an_actuator,
+    },
+    Reader {
+        name: "hid_text",
+        seeds: hid_seeds,
+        repair: None,
+        bombs: csv_bombs,
+        read: |bytes| {
+            read_a_hid_text(bytes);
+            Ok(())
+        },
     },
     Reader { name: "profile", seeds: profile_seeds, repair: None, bombs: csv_bombs, read: read_a_profile },
 ];

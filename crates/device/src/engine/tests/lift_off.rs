@@ -1,20 +1,76 @@
 //! Silence after lift-off, and bounds on the output, for any texture, tap transient and actuator.
 
-use proptest::prelude::{ProptestConfig, prop, prop_assert, proptest};
+use std::time::Instant;
+
+use proptest::prelude::{Just, ProptestConfig, Strategy, prop, prop_assert, prop_oneof, proptest};
+use shagreen_synth::contact::Contact;
 use shagreen_synth::drive::{DriveConfig, Inverse};
 use shagreen_synth::equalizer::Resonance;
-use shagreen_synth::renderer::Mix;
+use shagreen_synth::renderer::{Blend, Mix};
 use shagreen_synth::tap::Tap;
 
 use super::{CONFIG, play};
-use crate::controls::Input;
+use crate::controls::{Drive, Input};
 use crate::engine::{EngineConfig, new};
 use crate::texture::tests::with_lsf;
+use crate::touch::Touch;
 use crate::track::{PenSample, Track};
 
 /// Longest time from lift-off to silence that users are promised, in seconds.
 const PROMISED_SECS: f64 = 0.3;
 const LIFT_SECS: f64 = 0.4;
+
+/// Number of cases: few in a test, many by `scripts/abuse`.
+fn n_cases() -> u32 {
+    std::env::var("SHAGREEN_ABUSE_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(48)
+}
+
+/// Line spectral frequencies with these gaps, in any proportion.
+fn lsf_of(gaps: &[f32]) -> Vec<f32> {
+    let sum: f32 = gaps.iter().sum();
+    let mut at = 0.0;
+    let next = |gap: &f32| {
+        at += gap * std::f32::consts::PI / sum;
+        at
+    };
+    gaps[..gaps.len() - 1].iter().map(next).collect()
+}
+
+/// One thing that someone, or a faulty device, does to a running engine.
+#[derive(Clone, Debug)]
+enum Abuse {
+    /// Loads a texture of these gaps and level, and fades to it.
+    Load(Vec<f32>, f32),
+    /// Fades out the texture with this index.
+    Unload(usize),
+    Tap(f32, f32, f32),
+    Touch(f32, f32, f32),
+    Gain(f32),
+    /// Only waits.
+    Wait(u16),
+}
+
+fn any_number() -> impl Strategy<Value = f32> {
+    prop_oneof![
+        6 => -2.0_f32..10.0,
+        1 => Just(f32::NAN),
+        1 => Just(f32::INFINITY),
+        1 => -1e38_f32..1e38,
+        1 => Just(0.0_f32),
+    ]
+}
+
+fn any_abuse() -> impl Strategy<Value = Abuse> {
+    let gaps = prop::collection::vec(1e-4_f32..1.0, 2..=33);
+    prop_oneof![
+        2 => (gaps, 0.0_f32..1e6).prop_map(|(gaps, level)| Abuse::Load(gaps, level)),
+        1 => (0_usize..8).prop_map(Abuse::Unload),
+        1 => (any_number(), any_number(), any_number()).prop_map(|(f, b, a)| Abuse::Tap(100.0 * f, b, a)),
+        6 => (any_number(), any_number(), any_number()).prop_map(|(x, v, f)| Abuse::Touch(x, v, f)),
+        1 => any_number().prop_map(Abuse::Gain),
+        3 => (1_u16..4000).prop_map(Abuse::Wait),
+    ]
+}
 
 /// Stroke that touches from 0.1 s to [`LIFT_SECS`].
 fn stroke() -> Track {
@@ -33,24 +89,17 @@ fn stroke() -> Track {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 48, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: n_cases(), ..ProptestConfig::default() })]
 
     #[test]
     fn everything_is_silent_soon_after_lift_off(
-        mut gaps in prop::collection::vec(1e-4_f32..1.0, 4..=33),
+        gaps in prop::collection::vec(1e-4_f32..1.0, 4..=33),
         model_rate_hz in 200.0_f32..4000.0,
         level in 0.0_f32..1e6,
         tap in (0.0_f32..3000.0, -10.0_f32..1e3, -1e30_f32..1e30),
         coil in (30.0_f64..300.0, 0.5_f64..3000.0, 0.01_f64..30.0),
     ) {
-        let sum: f32 = gaps.iter().sum();
-        for gap in &mut gaps {
-            *gap *= std::f32::consts::PI / sum;
-        }
-        let lsf: Vec<f32> = gaps[..gaps.len() - 1]
-            .iter()
-            .scan(0.0, |at, gap| { *at += gap; Some(*at) })
-            .collect();
+        let lsf = lsf_of(&gaps);
         let (frequency_hz, q, lowest_hz) = coil;
         let inverse = Inverse { resonance: Resonance { frequency_hz, q, gain_mps2_per_volt: 1.0 }, lowest_hz };
         let drive = DriveConfig { inverse: Some(inverse), look_ahead_secs: 0.002, ..DriveConfig::proportional(5.0, 0.9) };
@@ -66,6 +115,52 @@ proptest! {
         let silent = ((LIFT_SECS + PROMISED_SECS) * 48_000.0) as usize;
         prop_assert!(out[silent..].iter().all(|x| *x == 0.0));
         prop_assert!(begun.is_none_or(|frame| frame > 3000), "before contact");
+    }
+
+    #[test]
+    fn no_abuse_reaches_the_coil(steps in prop::collection::vec(any_abuse(), 1..60), look_ahead in prop::bool::ANY) {
+        let look_ahead_secs = if look_ahead { 0.002 } else { 0.0 };
+        let drive = DriveConfig { look_ahead_secs, ..DriveConfig::proportional(5.0, 0.9) };
+        let (mut handle, mut engine) = new(EngineConfig { drive, ..CONFIG }).unwrap();
+        handle.set_input(Input::Live);
+        let mut live = handle.take_live_input().unwrap();
+        let mut loaded = Vec::new();
+        let mut n_frames = 0;
+        for step in steps {
+            let mut frames = 480;
+            match step {
+                Abuse::Load(gaps, level) => {
+                    if let Ok(texture) = with_lsf(1000.0, level, &lsf_of(&gaps)) && let Ok(id) = handle.load(texture) {
+                        loaded.push(id);
+                        handle.set_mix(Mix::solo(id)).unwrap();
+                    }
+                }
+                Abuse::Unload(index) => {
+                    if index < loaded.len() {
+                        let id = loaded.swap_remove(index);
+                        handle.set_mix(Mix::silent(Blend::Shared)).unwrap();
+                        handle.unload(id);
+                    }
+                }
+                Abuse::Tap(frequency_hz, decay_per_sec, amplitude_mps2) => {
+                    handle.set_tap(Tap { frequency_hz, decay_per_sec, amplitude_mps2 });
+                }
+                Abuse::Touch(x_m, speed_mps, force_n) => {
+                    let touch = Touch { x_m, y_m: x_m, contact: Contact { speed_mps, force_n } };
+                    live.land(touch, Instant::now(), Some(speed_mps)).unwrap();
+                }
+                Abuse::Gain(gain) => handle.set_drive(Drive { gain, ..Drive::default() }),
+                Abuse::Wait(n) => frames = usize::from(n),
+            }
+            let out = play(&mut engine, frames, 256);
+            n_frames += frames;
+            prop_assert!(out.iter().all(|x| x.abs() <= 0.9), "after {n_frames} frames");
+            handle.collect();
+        }
+        live.send(Touch::default(), Instant::now()).unwrap();
+        let after = play(&mut engine, 24_000, 256);
+        prop_assert!(after.iter().all(|x| x.abs() <= 0.9));
+        prop_assert!(after[(PROMISED_SECS * 48_000.0) as usize..].iter().all(|x| *x == 0.0));
     }
 }
 

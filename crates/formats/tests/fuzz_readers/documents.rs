@@ -1,0 +1,84 @@
+//! Projects, settings, actuator profiles and texts with pen reports.
+
+use std::io::ErrorKind;
+use std::path::Path;
+
+use shagreen_formats::actuator_toml::{built_in_actuators, read_actuator, write_actuator};
+use shagreen_formats::gallery::{GALLERY, GalleryProject};
+use shagreen_formats::hid_text::read_hid_text;
+use shagreen_formats::project::{Project, read_project, write_project};
+use shagreen_formats::settings::{KeptPrompt, Settings, read_settings, write_settings};
+
+/// Reads a project whose library file does not exist.
+fn project_in(bytes: &[u8]) -> Option<Project> {
+    let nothing = |_: &Path| Err(ErrorKind::NotFound.into());
+    read_project(bytes, Path::new("/folder"), &nothing).ok().map(|read| read.value)
+}
+
+/// Projects of the gallery, with paths, pictures and snapshots.
+pub(crate) fn project_seeds() -> Vec<Vec<u8>> {
+    let bytes = |project: &GalleryProject| {
+        let mut project = project.read().unwrap();
+        project.snapshots = project.authored.clone();
+        project.renamed.insert("cork".to_owned(), "Cork, sanded".to_owned());
+        write_project(&project, Path::new("/folder"), "fuzz")
+    };
+    GALLERY.iter().take(3).map(bytes).collect()
+}
+
+pub(crate) fn read_a_project(bytes: &[u8]) -> Result<(), String> {
+    let Some(project) = project_in(bytes) else { return Ok(()) };
+    let used: Vec<u32> =
+        project.authored.iter().chain(&project.snapshots).map(|texture| texture.key).collect();
+    if used.contains(&project.free_key()) {
+        return Err("the free key is in use".into());
+    }
+    let written = write_project(&project, Path::new("/folder"), "fuzz");
+    let again = project_in(&written).ok_or("the written project cannot be read")?;
+    if again == project { Ok(()) } else { Err("the written project is another one".into()) }
+}
+
+pub(crate) fn settings_seeds() -> Vec<Vec<u8>> {
+    let mut settings = Settings { is_light: Some(true), scale: Some(1.5), ..Settings::default() };
+    settings.note_project(Path::new("/a/woods.shagreen"));
+    settings.note_prompt(KeptPrompt { prompt: "rough bark".to_owned(), seed: 3, by_diffusion: false });
+    let rig = br#"{"recent": ["/a"], "rig": {"output": "null", "buffer_frames": 128, "full_scale_volts": 2.5,
+        "actuator": {"profile": {"built_in": "mm1c"}, "load_g": 40.0}}}"#;
+    vec![write_settings(&settings), rig.to_vec()]
+}
+
+pub(crate) fn read_some_settings(bytes: &[u8]) -> Result<(), String> {
+    let (settings, _) = read_settings(bytes);
+    let (again, error) = read_settings(&write_settings(&settings));
+    match error {
+        Some(error) => Err(format!("the written settings cannot be read: {error}")),
+        None if again == settings => Ok(()),
+        None => Err("the written settings are other ones".into()),
+    }
+}
+
+pub(crate) fn actuator_seeds() -> Vec<Vec<u8>> {
+    built_in_actuators().unwrap().iter().map(write_actuator).collect()
+}
+
+pub(crate) fn read_an_actuator(bytes: &[u8]) -> Result<(), String> {
+    let Ok(actuator) = read_actuator(bytes) else { return Ok(()) };
+    match read_actuator(&write_actuator(&actuator)) {
+        Ok(again) if again == actuator => Ok(()),
+        Ok(_) => Err("the written profile is another one".into()),
+        Err(error) => Err(format!("the written profile cannot be read: {error}")),
+    }
+}
+
+pub(crate) fn hid_seeds() -> Vec<Vec<u8>> {
+    vec![
+        b"R: 4 05 0d 09 02\nI: 3 056a 0061\nE: 000000.000000 4 02 e0 10 00\nE: 000000.008000 4 02 e1 11 00\n"
+            .to_vec(),
+        b"001:002:000:STREAM             1434567890.123456\n 02 E0 10 00 20 00 00 00\n\n".to_vec(),
+    ]
+}
+
+pub(crate) fn read_a_hid_text(bytes: &[u8]) {
+    // An error is fine too.
+    let _ = read_hid_text(bytes);
+}
