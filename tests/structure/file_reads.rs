@@ -29,7 +29,7 @@ fn unbounded_in(text: &str) -> Vec<&'static str> {
 
 /// Files of tests that are not in a folder of their own.
 fn is_test(name: &str) -> bool {
-    name.ends_with("tests.rs") || name.ends_with("two_windows.rs")
+    name.ends_with("tests.rs")
 }
 
 fn check_folder(folder: &Path, root: &Path, found: &mut Vec<String>) {

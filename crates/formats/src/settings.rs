@@ -105,7 +105,7 @@ pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
             .unwrap_or_default(),
         is_light: taken(&mut all, "is_light"),
         has_seen_tour: taken(&mut all, "has_seen_tour").unwrap_or_default(),
-        scale: taken(&mut all, "scale"),
+        scale: taken(&mut all, "scale").filter(|scale: &f32| scale.is_finite()),
         template: taken(&mut all, "template").and_then(|path: Value| path_json::from_json(&path)),
         prompts: taken(&mut all, "prompts").unwrap_or_default(),
         rig,

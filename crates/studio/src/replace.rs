@@ -58,8 +58,8 @@ pub fn is_own_signal(path: &Path, bytes: &[u8]) -> bool {
 /// # Errors
 /// As [`refuse_foreign`].
 pub fn refuse_foreign_signal(out: &Path) -> anyhow::Result<()> {
-    refuse_foreign(out, "the signal", |bytes| is_own_signal(out, bytes))?;
-    refuse_foreign(&wav::sidecar_path(out), "the signal's sidecar", is_sidecar)
+    refuse_foreign(&wav::sidecar_path(out), "the signal's sidecar", is_sidecar)?;
+    refuse_foreign(out, "the signal", |bytes| is_own_signal(out, bytes))
 }
 
 /// Returns whether a file is the sidecar of a signal.

@@ -242,6 +242,7 @@ fn conflict(path: &Path, base: Option<&Project>, here: &Project, present: &[u8])
 }
 
 #[cfg(test)]
+#[path = "document/tests/two_windows.rs"]
 mod two_windows;
 
 #[cfg(test)]

@@ -246,6 +246,8 @@ impl Actuator {
 /// Highest limits of a voice coil that vibrates a stylus or a fingertip.
 const MAX_VOLTS: f64 = 100.0;
 const MAX_AMPS: f64 = 50.0;
+/// Highest value of any other number, in its unit.
+const MAX_NUMBER: f64 = 1e9;
 
 /// Checks that all numbers are in range.
 ///
@@ -270,6 +272,9 @@ pub fn validate(actuator: &Actuator) -> Result<(), ActuatorError> {
     ];
     for (what, value) in numbers {
         value.map_or(Ok(()), |value| check_positive(what, value))?;
+        if let Some(value) = value.filter(|value| *value > MAX_NUMBER) {
+            return Err(ActuatorError::Number { what, value, needs: "a number of at most 1e9" });
+        }
     }
     // A limit that no voice coil has would be none.
     let bounded = [
