@@ -61,7 +61,7 @@ impl Header {
 }
 
 /// Rejects files with an excessive density of values: a list of zeros takes fifty times its file size in memory.
-fn check_density(bytes: &[u8]) -> Result<(), HeaderFault> {
+pub(crate) fn check_density(bytes: &[u8]) -> Result<(), HeaderFault> {
     let n_values = bytes.iter().filter(|byte| matches!(byte, b',' | b'[' | b'{')).count();
     if n_values.saturating_mul(VALUE_BYTES) <= MEMORY_FACTOR.saturating_mul(bytes.len()) + MEMORY_BYTES {
         return Ok(());

@@ -1,5 +1,9 @@
 //! Pictures of surfaces: encoding and decoding.
 
+mod png_chunks;
+
+use self::png_chunks::without_large_texts;
+
 use std::borrow::Cow;
 use std::io::Cursor;
 
@@ -295,28 +299,6 @@ fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     let mut photo = DynamicImage::from_decoder(decoder).map_err(refused)?;
     photo.apply_orientation(orientation);
     Ok(photo)
-}
-
-/// Signature at the begin of a PNG.
-const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
-/// Chunks of a PNG that hold compressed data besides the image. A few kilobytes can expand to gigabytes, and nothing of
-/// them is used.
-const COMPRESSED_CHUNKS: [&[u8]; 3] = [b"iCCP", b"zTXt", b"iTXt"];
-
-/// Returns a PNG without its color profile and compressed texts; any other file unchanged.
-fn without_large_texts(bytes: &[u8]) -> Cow<'_, [u8]> {
-    let Some(mut rest) = bytes.strip_prefix(PNG_SIGNATURE) else { return Cow::Borrowed(bytes) };
-    let mut kept = PNG_SIGNATURE.to_vec();
-    // A chunk is its length, its name, its data and a checksum.
-    while let Some((length, name)) = rest.first_chunk::<4>().zip(rest.get(4..8)) {
-        let end = (u32::from_be_bytes(*length) as usize).saturating_add(12).min(rest.len());
-        if !COMPRESSED_CHUNKS.contains(&name) {
-            kept.extend_from_slice(&rest[..end]);
-        }
-        rest = &rest[end..];
-    }
-    kept.extend_from_slice(rest);
-    Cow::Owned(kept)
 }
 
 /// Returns whether a JPEG ends before its end marker. Decoders silently fill missing rows with gray. A complete file

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use crate::layout;
+use crate::own_json::check_density;
 use crate::path_json;
 use crate::rig_settings::RigSettings;
 
@@ -91,6 +92,10 @@ impl Settings {
 /// Reads settings, each independently: an unreadable one takes its default. An unreadable device setup is also returned
 /// as an error.
 pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
+    if check_density(bytes).is_err() {
+        let error = serde::de::Error::custom("it has more values than settings need");
+        return (Settings::default(), Some(SettingsError::Format(error)));
+    }
     let mut all: Map<String, Value> = match serde_json::from_slice(bytes) {
         Ok(all) => all,
         Err(error) => return (Settings::default(), Some(SettingsError::Format(error))),

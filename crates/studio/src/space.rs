@@ -22,7 +22,7 @@ pub struct BuiltSpace {
     pub validation: Vec<String>,
 }
 
-/// Builds a space on all processors. `on_step` is told each step, from several threads, and returns whether to continue.
+/// Builds a space on all processors. `on_step` receives each step, from several threads, and returns whether to continue.
 ///
 /// # Errors
 /// See [`SpaceBuildError`].

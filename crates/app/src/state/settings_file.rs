@@ -77,7 +77,7 @@ fn write(path: &Path, before: &Settings, settings: &Settings) {
         let _ = std::fs::create_dir_all(folder);
     }
     let merge = |present: Option<&[u8]>| -> Result<Vec<u8>, Infallible> {
-        // A file with an error is replaced, as the user was told.
+        // A file with an error is replaced; a message has said so.
         let theirs = present.map(read_settings).and_then(|(theirs, error)| error.is_none().then_some(theirs));
         Ok(write_settings(
             &theirs.map_or_else(|| settings.clone(), |theirs| merged(before, settings, theirs)),

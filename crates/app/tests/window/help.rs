@@ -95,3 +95,19 @@ fn the_authored_texture_is_exported_in_every_format() {
         harness.run_steps(3);
     }
 }
+
+#[test]
+fn the_keys_are_shown_and_each_is_named() {
+    let mut harness = author();
+    harness.key_press(Key::F1);
+    harness.run_steps(6);
+    let close = harness.get_by_label(help::CLOSE).rect();
+    assert!(close.bottom() < 720.0 && harness.get_by_label(help::SHORTCUTS).rect().top() > 0.0, "{close:?}");
+    for command in shagreen_app::command::listed() {
+        let entry = command.entry().expect("every listed command has words");
+        assert!(entry.shortcut.is_none() || says(&harness, entry.label), "{}", entry.label);
+    }
+    click(&mut harness, help::CLOSE);
+    harness.run_steps(2);
+    assert!(!says(&harness, help::MORE_KEYS[0].1));
+}

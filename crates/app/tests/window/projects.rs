@@ -349,25 +349,6 @@ fn the_first_steps_are_shown_once() {
 }
 
 #[test]
-fn the_keys_are_shown_and_each_is_named() {
-    let mut harness = author();
-    harness.key_press(Key::F1);
-    harness.run_steps(6);
-    let close = harness.get_by_label(help::CLOSE).rect();
-    assert!(
-        close.bottom() < SIZE[1] && harness.get_by_label(help::SHORTCUTS).rect().top() > 0.0,
-        "{close:?}"
-    );
-    for command in shagreen_app::command::listed() {
-        let entry = command.entry().expect("every listed command has words");
-        assert!(entry.shortcut.is_none() || says(&harness, entry.label), "{}", entry.label);
-    }
-    click(&mut harness, help::CLOSE);
-    harness.run_steps(2);
-    assert!(!says(&harness, help::MORE_KEYS[0].1));
-}
-
-#[test]
 fn a_project_of_the_gallery_is_opened_and_heard() {
     let mut harness = author();
     menu(&mut harness, gallery::GALLERY);

@@ -1,4 +1,4 @@
-//! Table of surface classes.
+//! Table of surface classes. It is long because it is data: one row of ranges for each class.
 
 use crate::surfaces::material::PatternKind;
 use crate::surfaces::random_material::classes::{Amplitude, Class, PatternClass, ScatterClass};
