@@ -369,7 +369,7 @@ impl Engine {
                 self.taps.add_to(before);
                 self.taps.strike(self.tap, landing.strength);
                 self.landing = None;
-                self.player.note_contact(landing.stream_secs);
+                self.player.note_contact(landing.stream_secs, landing.stream_secs);
                 rest = after;
             }
         }

@@ -63,7 +63,7 @@ impl Claim {
             match file.try_lock() {
                 Ok(()) => break,
                 Err(TryLockError::WouldBlock) if take_over && begun.elapsed() < PATIENCE => {
-                    // The owner removes it when it has released the lock.
+                    // Written until the lock is released, and then removed.
                     if fs::write(&request, "").is_err() {
                         return Err(claimed());
                     }

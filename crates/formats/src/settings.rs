@@ -122,29 +122,30 @@ pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
 /// Merges settings by key: those that changed from `base` to `ours` are ours, the others are `theirs`. Lists of recent
 /// things keep both. Two windows therefore do not undo each other's settings.
 pub fn merged(base: &Settings, ours: &Settings, theirs: Settings) -> Settings {
-    let mut merged = theirs;
-    if base.recent != ours.recent {
-        let others = merged.recent.into_iter().filter(|path| !ours.recent.contains(path));
-        merged.recent = ours.recent.iter().cloned().chain(others).take(MAX_RECENT).collect();
+    Settings {
+        recent: joined(&base.recent, &ours.recent, theirs.recent, MAX_RECENT),
+        is_light: newer(&base.is_light, &ours.is_light, theirs.is_light),
+        has_seen_tour: ours.has_seen_tour || theirs.has_seen_tour,
+        scale: newer(&base.scale, &ours.scale, theirs.scale),
+        template: newer(&base.template, &ours.template, theirs.template),
+        rig: newer(&base.rig, &ours.rig, theirs.rig),
+        prompts: joined(&base.prompts, &ours.prompts, theirs.prompts, MAX_PROMPTS),
+        unknown: theirs.unknown,
     }
-    if base.prompts != ours.prompts {
-        let others = merged.prompts.into_iter().filter(|kept| !ours.prompts.contains(kept));
-        merged.prompts = ours.prompts.iter().cloned().chain(others).take(MAX_PROMPTS).collect();
+}
+
+/// Our value if it has changed, otherwise theirs.
+fn newer<T: Clone + PartialEq>(base: &T, ours: &T, theirs: T) -> T {
+    if base == ours { theirs } else { ours.clone() }
+}
+
+/// Our list with what theirs has in addition, if ours has changed, otherwise theirs.
+fn joined<T: Clone + PartialEq>(base: &[T], ours: &[T], theirs: Vec<T>, most: usize) -> Vec<T> {
+    if base == ours {
+        return theirs;
     }
-    if base.is_light != ours.is_light {
-        merged.is_light = ours.is_light;
-    }
-    merged.has_seen_tour |= ours.has_seen_tour;
-    if base.scale != ours.scale {
-        merged.scale = ours.scale;
-    }
-    if base.template != ours.template {
-        merged.template.clone_from(&ours.template);
-    }
-    if base.rig != ours.rig {
-        merged.rig.clone_from(&ours.rig);
-    }
-    merged
+    let others = theirs.into_iter().filter(|item| !ours.contains(item));
+    ours.iter().cloned().chain(others).take(most).collect()
 }
 
 /// Removes and parses a setting whose loss is harmless.

@@ -201,23 +201,13 @@ impl Player {
         self.contact_secs
     }
 
-    /// Extends the contact up to this time of the stream's clock.
-    fn note_touched(&mut self, stream_secs: f64) {
-        if let Some((_, touched_secs)) = &mut self.contact_secs {
-            *touched_secs = touched_secs.max(stream_secs);
-        }
-    }
-
-    /// Notes that the tip is in contact at this time of the stream's clock, such as a tap between two ticks.
-    pub(super) fn note_contact(&mut self, stream_secs: f64) {
+    /// Notes that the tip is in contact between two times of the stream's clock; they are equal for a tap between two
+    /// ticks.
+    pub(super) fn note_contact(&mut self, from_secs: f64, to_secs: f64) {
         let was_touching = self.touch.contact.force_n > 0.0;
-        self.contact_secs = Some(match self.contact_secs {
-            Some((landed_secs, touched_secs)) if was_touching => {
-                (landed_secs.min(stream_secs), touched_secs.max(stream_secs))
-            }
-            Some((_, touched_secs)) => (stream_secs, stream_secs.max(touched_secs)),
-            None => (stream_secs, stream_secs),
-        });
+        let (landed_secs, touched_secs) = self.contact_secs.unwrap_or((from_secs, to_secs));
+        let landed_secs = if was_touching { landed_secs.min(from_secs) } else { from_secs };
+        self.contact_secs = Some((landed_secs, touched_secs.max(to_secs)));
     }
 
     /// Touch of the last tick.
@@ -343,8 +333,8 @@ impl ContactSource for Player {
         if touch.contact.force_n > 0.0 {
             // The level rises from zero within the tick that ends now.
             let was_touching = self.touch.contact.force_n > 0.0;
-            self.note_contact(if was_touching { time_secs } else { time_secs - step_secs + REQUEST_SECS });
-            self.note_touched(time_secs);
+            let from_secs = if was_touching { time_secs } else { time_secs - step_secs + REQUEST_SECS };
+            self.note_contact(from_secs, time_secs);
         }
         self.touch = touch;
         touch.contact
