@@ -12,7 +12,8 @@ use shagreen_formats::bounded_file::FileKind;
 
 use shagreen_studio::file;
 
-/// Returns the profile of a built-in actuator or of a file, converted to another load if one is given.
+/// Returns the built-in actuator with this id or the actuator of this profile file, converted to the load `load_g` (in
+/// g) if it is given.
 pub(crate) fn load_actuator(name: &str, load_g: Option<f64>) -> anyhow::Result<Actuator> {
     let built_in = built_in_actuators()?;
     let actuator = if let Some(found) = built_in.iter().find(|actuator| actuator.id == name) {
@@ -23,7 +24,7 @@ pub(crate) fn load_actuator(name: &str, load_g: Option<f64>) -> anyhow::Result<A
     } else {
         let ids: Vec<&str> = built_in.iter().map(|actuator| actuator.id.as_str()).collect();
         bail!(
-            "there is no actuator and no file \"{name}\"; give a profile file or a built-in actuator: {}",
+            "\"{name}\" is neither a built-in actuator nor a file; give a profile file or a built-in actuator: {}",
             ids.join(", ")
         );
     };

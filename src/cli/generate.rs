@@ -81,12 +81,16 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    ensure!(
+        !args.prompt.trim().is_empty(),
+        "the prompt is empty; describe a surface, such as \"rough sandstone\""
+    );
     let project_name = format!("project.{EXTENSION}");
     check_folder(&args.out, &project_name)?;
     let all = [PICTURE, HEIGHTS, TEXTURE, &project_name, DESCRIPTION].map(|name| args.out.join(name));
     check_together::<&str>(&all.each_ref().map(PathBuf::as_path), Some(&args.out), &[])?;
     let understood = interpret(&args.prompt, built_in_lexicon()?);
-    let name = title(&args.prompt, LONGEST_NAME).unwrap_or_else(|| "Empty prompt".to_owned());
+    let name = title(&args.prompt, LONGEST_NAME).unwrap_or_else(|| "Generated".to_owned());
     // Whatever can fail is checked before hours of computing.
     let looker = PicturePredictor::built_in(read_backbone(&args.backbone)?)?;
     let made = if args.diffusion {

@@ -102,7 +102,29 @@ pub(crate) fn usage(error: &clap::Error) -> ExitCode {
 fn usage_line(message: &str) -> String {
     let is_closing = |line: &&str| !line.starts_with("Usage:") && !line.starts_with("For more information");
     let lines = message.lines().map(str::trim).take_while(is_closing).filter(|line| !line.is_empty());
-    format!("{}; see --help", lines.collect::<Vec<_>>().join(" "))
+    format!("{}; see --help", plain(&lines.collect::<Vec<_>>().join(" ")))
+}
+
+/// Rewords what the parsers of numbers in the standard library and in clap say.
+fn plain(message: &str) -> String {
+    const WORDS: [(&str, &str); 6] = [
+        ("invalid digit found in string", "it must be a whole number"),
+        ("cannot parse integer from empty string", "it must be a whole number"),
+        ("cannot parse float from empty string", "it must be a number"),
+        ("invalid float literal", "it must be a number"),
+        ("number too large to fit in target type", "the number is too large"),
+        ("number too small to fit in target type", "the number is too small"),
+    ];
+    let message =
+        WORDS.iter().fold(message.to_owned(), |message, (theirs, ours)| message.replace(theirs, ours));
+    // "0 is not in 1..=100", and for the largest number of a type "0 is not in 1..=4294967295".
+    let Some((before, range)) = message.rsplit_once(" is not in ") else { return message };
+    let Some((from, to)) = range.split_once("..") else { return message };
+    let before = before.rsplit_once(": ").map_or(before, |(before, _)| before);
+    match to.trim_start_matches('=').parse::<u64>() {
+        Ok(to) if to < u64::from(u32::MAX) => format!("{before}: it must be {from} to {to}"),
+        _ => format!("{before}: it must be at least {from}"),
+    }
 }
 
 /// Exit status for wrong usage.
@@ -185,7 +207,7 @@ pub(crate) fn in_ms(secs: f64) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{printable, usage_line};
+    use super::{plain, printable, usage_line};
 
     #[test]
     fn a_terminal_obeys_no_name() {
@@ -200,5 +222,26 @@ mod tests {
             usage_line(message),
             "error: unexpected argument '--foo' found tip: try '--force'; see --help"
         );
+    }
+
+    #[test]
+    fn numbers_are_refused_in_plain_words() {
+        for (theirs, ours) in [
+            (
+                "invalid value 'x' for '--seed <N>': invalid digit found in string",
+                "invalid value 'x' for '--seed <N>': it must be a whole number",
+            ),
+            (
+                "invalid value '0' for '--rate <HZ>': 0 is not in 1..=4294967295",
+                "invalid value '0' for '--rate <HZ>': it must be at least 1",
+            ),
+            (
+                "invalid value '2000' for '--row <ROW>': 2000 is not in 0..=1000",
+                "invalid value '2000' for '--row <ROW>': it must be 0 to 1000",
+            ),
+            ("a value is required for '--out'", "a value is required for '--out'"),
+        ] {
+            assert_eq!(plain(theirs), ours);
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! `shagreen render`: renders a texture to a WAV file.
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use serde_json::json;
@@ -43,6 +44,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    check_wav_name(&args.out)?;
     let motion = motion(&args.motion, None)?;
     let (library, chosen) = args.sound.load()?;
     let rate_hz = match args.rate {
@@ -95,6 +97,19 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         },
     );
     Ok(())
+}
+
+/// Only WAV files are written; another ending would promise another format.
+fn check_wav_name(path: &Path) -> anyhow::Result<()> {
+    match path.extension().and_then(OsStr::to_str) {
+        Some(ending) if !ending.eq_ignore_ascii_case("wav") => {
+            bail!(
+                "only WAV files are written, not .{ending}; choose a name ending in .wav: {}",
+                path.display()
+            )
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Returns a rate as a whole number, as WAV files need it.

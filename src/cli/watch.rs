@@ -1,4 +1,5 @@
-//! Monitoring of an output during playback: connection, requests for samples, limits.
+//! Monitoring of an output during playback: lost connection, missing requests for samples, attenuation by the thermal
+//! limiter.
 
 use std::time::{Duration, Instant};
 
@@ -9,7 +10,7 @@ use shagreen_device::status::{LinkState, Status};
 use crate::cli::output;
 use crate::cli::receiver::Receiver;
 
-/// Longest stall: a receiver that was reset resumes much sooner.
+/// Longest tolerated time in the stalled state. A receiver that was reset resumes much sooner.
 const STALL_PATIENCE: Duration = Duration::from_secs(4);
 
 /// Monitor of an output during playback.
@@ -19,7 +20,7 @@ pub(crate) struct Watch {
     receiver: Option<Receiver>,
     stalled_since: Option<Instant>,
     has_told_stall: bool,
-    /// Lowest gain of the thermal limiter.
+    /// Lowest gain of the thermal limiter so far, 0..1.
     heat_gain: f32,
 }
 
@@ -35,15 +36,16 @@ impl Watch {
         &self.what
     }
 
-    /// Returns the lowest gain of the thermal limiter, 0..1.
+    /// Returns the lowest gain of the thermal limiter so far, 0..1.
     pub(crate) fn heat_gain(&self) -> f32 {
         self.heat_gain
     }
 
-    /// Returns the status of the output. Prints new warnings of its receiver, and once that it has stalled.
+    /// Returns the status of the output. Prints new warnings of its receiver, and a warning at the first stall of the
+    /// output.
     ///
     /// # Errors
-    /// The output is lost, or has requested no samples for too long.
+    /// The output is lost, or has been stalled for longer than [`STALL_PATIENCE`].
     pub(crate) fn look(&mut self, handle: &mut Handle) -> anyhow::Result<Status> {
         let status = handle.status();
         if let Some(receiver) = &mut self.receiver {
@@ -52,7 +54,9 @@ impl Watch {
         if status.state == LinkState::Lost {
             return Err(match handle.loss() {
                 Some(loss) => anyhow::Error::new(loss.clone()).context(format!("{} was lost", self.what)),
-                None => anyhow::anyhow!("{} was lost; find it with `shagreen devices`", self.what),
+                None => {
+                    anyhow::anyhow!("{} was lost; `shagreen devices` lists the available outputs", self.what)
+                }
             });
         }
         if let Some(warning) = self.note(&status, Instant::now())? {
@@ -75,10 +79,11 @@ impl Watch {
             let advice = if self.receiver.is_some() {
                 "check its power, its cable and its firmware"
             } else {
-                "check it, or choose another output with `shagreen devices`"
+                "check the device, or choose another --output: `shagreen devices` lists the outputs"
             };
+            // An output counts as stalled later if it has never requested samples, so this is a lower bound.
             let secs = STALL_SECS + STALL_PATIENCE.as_secs_f64();
-            bail!("{} has requested no samples for {secs:.0} s; {advice}", self.what);
+            bail!("{} has requested no samples for more than {secs:.0} s; {advice}", self.what);
         }
         if std::mem::replace(&mut self.has_told_stall, true) {
             return Ok(None);
@@ -92,7 +97,7 @@ mod tests {
     use super::{Duration, Instant, LinkState, STALL_PATIENCE, Status, Watch};
 
     #[test]
-    fn a_stall_is_told_once_and_a_long_one_ends_it() {
+    fn a_stall_warns_once_and_a_long_stall_is_an_error() {
         let mut watch = Watch::new("x", None);
         let begun = Instant::now();
         let status = |state| Status { state, frames_played: 10, heat_gain: 0.5, ..Status::default() };
@@ -106,7 +111,7 @@ mod tests {
         assert_eq!(note(LinkState::Stalled, 4.0).unwrap(), None);
         assert_eq!(note(LinkState::Stalled, 3.9 + patience_secs).unwrap(), None);
         let error = note(LinkState::Stalled, 4.1 + patience_secs).unwrap_err().to_string();
-        assert!(error.contains("`x` has requested no samples for 5 s"), "{error}");
+        assert!(error.contains("`x` has requested no samples for more than 5 s"), "{error}");
         assert_eq!(watch.heat_gain(), 0.5);
     }
 }

@@ -6,6 +6,9 @@
     reason = "a test may panic on an unexpected result, and prints what it skips"
 )]
 
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+#[path = "../support/disk_faults.rs"]
+mod disk_faults;
 #[path = "../support/mod.rs"]
 mod support;
 
@@ -13,6 +16,8 @@ mod author;
 mod devices;
 mod errors;
 mod evaluate;
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+mod faults;
 mod hostile;
 mod import;
 mod learn;

@@ -365,7 +365,7 @@ fn few_textures_and_few_participants_are_said() {
     );
     assert_eq!(report["stability"], json!(null));
     let said = report["warnings"].to_string();
-    assert!(said.contains("2 sorted and 2 rated, but at least 3 of each are needed"), "{said}");
+    assert!(said.contains("2 participants sorted and 2 rated, but at least 3 of each are needed"), "{said}");
     let keep: Vec<&str> = ["participant", "cork", "felt", "brick", "glass", "leather"].into();
     let five = |text: &str, n: usize| -> String {
         let kept = text.lines().filter(|line| keep[..=n].iter().any(|word| line.contains(word)));

@@ -141,7 +141,7 @@ fn what_cannot_be_calibrated_is_told_in_a_line_and_leaves_nothing() {
     fails("--recording good.wav --sensitivity 40 --seconds 60", &["8.5 s, the sweep 60.0 s", "good.wav"]);
     fails(
         &format!("--recording good.wav --sensitivity 40 --actuator mark-3 {SWEEP}"),
-        &["there is no actuator", "mm1c"],
+        &["neither a built-in actuator nor a file", "mm1c"],
     );
     // The output signal itself instead of the sensor's.
     fails(
@@ -352,7 +352,7 @@ fn the_built_in_actuators_are_listed_and_shown() {
     assert!(unknown["f0_hz"].is_null() && unknown["source"].as_str().unwrap().contains("calibrate it"));
     bench.fails("actuator acf mm1c -o mm1c.acf", 1, &["mm1c", "calibrate it"]);
     bench.fails("actuator show mm1c --load-g 40", 1, &["mm1c", "calibrate it"]);
-    bench.fails("actuator show nothing", 1, &["no actuator and no file", "haptuator-mark-ii"]);
+    bench.fails("actuator show nothing", 1, &["neither a built-in actuator nor a file", "haptuator-mark-ii"]);
     bench.write("broken.toml", "format = \"shagreen-actuator\"\nversion = \"1.0\"\nid = \"x\"\nname = \"x\"\nsource = \"x\"\nloud = 3\n");
     bench.fails("actuator show broken.toml", 1, &["unknown field `loud`", "line 6", "broken.toml"]);
 }

@@ -1,9 +1,10 @@
-//! The authoring space: positions of the textures, their derivation from human judgments, and interpolation between
-//! them.
+//! The authoring space: positions of the textures, derivation of the positions from human judgments, and interpolation
+//! between the textures.
 //!
 //! Inputs: texture models, positions, judgments and features. Outputs: positions with their validation
 //! ([`space_build`]), and the weights and interpolated texture at any point ([`authoring`]). Leave-one-out errors
-//! measure the interpolation ([`leave_one_out`]).
+//! measure the accuracy of the interpolation ([`leave_one_out`]). The *authoring paper* is that of Hassan, Abdulali and
+//! Jeon (2020), cited in [`space_build`].
 
 pub mod attribute_predictor;
 pub mod authoring;

@@ -28,7 +28,7 @@ pub(crate) enum Way {
 }
 
 impl Way {
-    /// Word for such devices in messages.
+    /// Word for a device of this direction in messages.
     fn name(self) -> &'static str {
         match self {
             Self::Out => "output",
@@ -79,7 +79,8 @@ pub(crate) struct Opened {
     pub(crate) shared: Arc<Shared>,
 }
 
-/// Ids of ALSA plugins that convert for another output or play to none. They are not listed but can be opened by id.
+/// Ids of ALSA plugins that convert the signal for another output or discard it. They are not listed but can be opened
+/// by id.
 const ALSA_CONVERTERS: [&str; 8] = [
     "alsa:null",
     "alsa:lavrate",
@@ -137,8 +138,8 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let configs = configs_of(id, &device)?;
     let Some((range, rate_hz)) = choose(&configs, options) else {
         let message = format!(
-            "the output `{id}` has no suitable channel, rate and format (of {} stream formats); \
-             choose other channels, or another output: `shagreen devices` lists them",
+            "none of the {} stream formats of the output `{id}` has a suitable channel, rate and sample format; \
+             choose other channels, or another output: `shagreen devices` lists the outputs",
             configs.len()
         );
         return Err(DeviceError::new(DeviceErrorKind::Unsupported, message));
@@ -177,7 +178,7 @@ pub(crate) fn find(way: Way, id: &str) -> Result<cpal::Device, DeviceError> {
     if is_by_number(id) {
         let message = format!(
             "the {what} `{id}` names a card by its number, which may belong to another card later; `shagreen devices` \
-             lists it by its name"
+             lists the card by its name"
         );
         return Err(DeviceError::new(DeviceErrorKind::NotFound, message));
     }
@@ -249,8 +250,8 @@ fn build_as<T: SizedSample + FromSample<f32>>(
 fn note_error(id: &str, reporter: &mut Reporter, error: &cpal::Error) {
     let lost = || {
         let message = format!(
-            "the output `{id}` is lost: {}; it stays silent until you open it again, or open another that \
-             `shagreen devices` lists",
+            "the output `{id}` is lost: {}; it stays silent until you open it again; `shagreen devices` lists \
+             other outputs",
             reason(error)
         );
         DeviceError::new(DeviceErrorKind::Lost, message)

@@ -25,7 +25,7 @@ const WAITING: usize = 1 << 19;
 /// One audio input of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputInfo {
-    /// Stable name; opens the input.
+    /// Stable id; opens the input.
     pub id: String,
     /// Display name.
     pub name: String,

@@ -17,23 +17,24 @@ pub enum Input {
     /// Automatic stroke, from its start. A change of speed, force or extent continues from the current tip position; a
     /// change of path restarts the stroke.
     Hand(Hand),
-    /// The last track passed to [`crate::engine::Handle::play_track`], once, from its start.
+    /// The last track that was sent to the engine ([`crate::engine::Handle::play_track`]), played once from its start.
     Track,
-    /// The last track, repeated from its start. A change of tempo or force continues from the current tip position.
+    /// The last track that was sent to the engine, repeated from its start. A change of tempo or force continues from
+    /// the current tip position.
     Repeat(Repeat),
 }
 
-/// Automatic takeover of the chosen input by live stylus input. It starts with the block in which the stylus report
-/// arrives, independently of the window's thread. A stylus takes over when it touches or reports proximity
-/// ([`crate::live::LiveInput::hover`]). The tap transient starts at once; the contact fades, as at every change of
-/// input.
+/// Automatic takeover: live stylus input replaces the chosen input when a stylus touches or reports proximity
+/// ([`crate::live::LiveInput::hover`]). The takeover starts in the block in which the report arrives, independently of
+/// the window's thread. The tap transient starts at once; speed and force fade, as at every change of input.
 ///
 /// The chosen input pauses during the takeover and continues from the same position afterwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Takeover {
     /// Time from the end of touch and proximity until the chosen input continues, in seconds.
     pub lifted_secs: f32,
-    /// Time from the last report of a stylus that never reported leaving, in seconds.
+    /// Time from the last report of a stylus that has not reported leaving until the chosen input continues, in
+    /// seconds.
     pub stale_secs: f32,
 }
 
@@ -42,12 +43,12 @@ impl Takeover {
     pub const USUAL: Self = Self { lifted_secs: 0.3, stale_secs: 2.0 };
 }
 
-/// Level of the output signal.
+/// Level of the output signal: muting and gain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Drive {
     /// Whether the output is muted.
     pub muted: bool,
-    /// Gain from the texture's acceleration to the actuator's, at least 0. The limiter follows it.
+    /// Factor from the texture's acceleration to the actuator's, at least 0. The limiters act after it.
     pub gain: f32,
 }
 
@@ -72,7 +73,7 @@ pub struct Controls {
     pub mix: Mix,
     /// Tap transient at a contact onset.
     pub tap: Tap,
-    /// Level of the output signal.
+    /// Level of the output signal: muting and gain.
     pub drive: Drive,
     /// Source of the tip's motion.
     pub input: Input,

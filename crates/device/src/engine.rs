@@ -3,10 +3,11 @@
 //! 1. [`new`] creates both halves. The [`Engine`] moves into the callback; the [`Handle`] stays with the controlling
 //!    thread.
 //! 2. [`Handle::load`] sends textures to the engine. [`Handle::set_mix`], [`Handle::set_input`] and
-//!    [`Handle::set_drive`] control it.
-//! 3. The device calls [`Engine::process`] for every block. It never allocates, frees, locks, waits or panics.
-//! 4. [`Handle::unload`] fades a texture out and returns it; [`Handle::collect`] frees returned objects. Call `collect`
-//!    often: at every frame of the user interface, or every tenth of a second.
+//!    [`Handle::set_drive`] select the audible textures, the tip motion and the output level.
+//! 3. The device calls [`Engine::process`] for every block. [`Engine::process`] never allocates, frees, locks, waits or
+//!    panics.
+//! 4. [`Handle::unload`] fades a texture out. The engine then queues the texture for [`Handle::collect`], which frees
+//!    all queued objects. Call `collect` often: at every frame of the user interface, or every tenth of a second.
 //!
 //! When the handle is dropped, the engine fades to silence, because nobody could mute it any more.
 
@@ -50,11 +51,11 @@ use crate::track::Track;
 pub const SLOTS: usize = 64;
 /// Duration of a fade at muting, a gain change or an input change, in seconds.
 pub const FADE_SECS: f64 = 0.02;
-/// Capacity of the command queue.
+/// Capacity of the command queue, in commands.
 const COMMANDS: usize = 128;
-/// Capacity of the queue of objects to be freed.
+/// Capacity of the queue of objects to be freed, in objects.
 const RETURNED: usize = 32;
-/// Capacity of a touch queue: a quarter of a second of a fast stylus.
+/// Capacity of a touch queue, in reports: a quarter of a second of a stylus that reports at 1 kHz.
 const TOUCHES: usize = 256;
 /// Number of live inputs: one for a pen, one for the mouse.
 pub const LIVE_INPUTS: usize = 2;
@@ -63,7 +64,7 @@ const SCOPE: usize = 32_768;
 /// Frames rendered at a time.
 const SCRATCH: usize = 256;
 
-/// Values that must change together; only the newest counts.
+/// Values that must change together. The engine reads only the newest set.
 #[derive(Clone, Copy, Debug, Default)]
 struct Orders {
     controls: Controls,
@@ -96,9 +97,9 @@ enum Returned {
 pub(crate) struct CallbackAdapter {
     /// Time at which the device requested the block.
     pub(crate) now: Instant,
-    /// Smoothed load up to the last block.
+    /// Smoothed load up to the last block ([`Status::load`]).
     pub(crate) load: f32,
-    /// Highest load up to the last block.
+    /// Highest load up to the last block ([`Status::load_max`]).
     pub(crate) load_max: f32,
     /// Time from now until the device plays the block, in seconds.
     pub(crate) device_latency_secs: f32,
@@ -118,7 +119,8 @@ pub struct Engine {
     signal: SignalPlayer,
     chain: DriveChain,
     gain: Ramp,
-    /// Zero while muted. A signal obeys muting but not the gain.
+    /// 0 while muted, else 1: the factor on samples of [`Driven::Drive`]. The factor on all other samples is `gain`,
+    /// which includes muting.
     unmuted: Ramp,
     meter: Meter,
     device_rate_hz: f64,
@@ -130,7 +132,8 @@ pub struct Engine {
     frames_played: u64,
     /// Frames since the stream started or restarted.
     stream_frames: u64,
-    /// Whether the output is silent after lift-off, and nothing oscillates.
+    /// Whether the lift gate had silenced the output at the end of the last block; the filters are then already
+    /// cleared.
     is_at_rest: bool,
     leaked: u64,
     orders: triple_buffer::Output<Orders>,
@@ -194,10 +197,10 @@ pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
 }
 
 impl Engine {
-    /// Fills `out` with the next frames, interleaved with `channels` samples each, -1..1.
+    /// Fills `out` with the next frames: `channels` interleaved samples per frame, each -1..1.
     ///
-    /// Never allocates, frees, locks, waits or panics. Cost: that of [`Stream::process`] for the frames, plus at most
-    /// one full queue of commands.
+    /// Never allocates, frees, locks, waits or panics. Cost: that of [`Stream::process`] and of the drive chain for the
+    /// frames, plus at most one full command queue, [`LIVE_INPUTS`] full touch queues and one pass over the [`SLOTS`].
     pub fn process(&mut self, out: &mut [f32], channels: usize) {
         // Orders are read first: the objects they refer to were already queued when the orders were written.
         let orders = *self.orders.read();
@@ -222,13 +225,14 @@ impl Engine {
         self.publish();
     }
 
-    /// Delay in seconds from a change of contact to the middle of its ramp in the output, without the device's own
-    /// buffers.
+    /// Delay in seconds from a change of speed or force to the middle of the resulting ramp in the output, without the
+    /// device's own buffers.
     pub fn latency_secs(&self) -> f32 {
         self.stream.latency_secs() + self.chain.latency_secs()
     }
 
-    /// Returns what a receiver that renders by itself needs: touch, id of the texture with the highest weight, gain.
+    /// Returns the data for a receiver that renders textures itself: touch, id of the texture with the highest weight,
+    /// gain.
     pub(crate) fn now(&self) -> (Touch, Option<TextureId>, f32) {
         let parents = self.mix.parents.iter().filter(|parent| parent.weight > 0.0);
         let loudest = parents.max_by(|a, b| a.weight.total_cmp(&b.weight));
@@ -303,8 +307,8 @@ impl Engine {
         self.unmuted.aim(if is_in_hand && !drive.muted { 1.0 } else { 0.0 });
     }
 
-    /// Ends the limiter's latched silence. Non-finite samples come from the stream's filters, which would keep them, so
-    /// the stream restarts.
+    /// Ends the limiter's latched silence. The stream restarts, because non-finite samples come from its filters and
+    /// would stay in them.
     fn start_again(&mut self) {
         if self.chain.is_tripped() {
             self.chain.reset();
@@ -317,7 +321,8 @@ impl Engine {
         }
     }
 
-    /// Renders frames from the textures up to the device's drive signal.
+    /// Renders the next frames of the drive signal: textures and tap transients or a signal, then gain, equalizer and
+    /// limiters.
     fn render(&mut self, mono: &mut [f32]) {
         self.stream.process(&self.slots, &mut self.player, mono);
         self.add_taps(mono);
@@ -334,7 +339,7 @@ impl Engine {
         }
         self.chain.process(mono, driven, touching);
         if self.chain.is_silenced() && !self.is_at_rest {
-            // What still oscillates would begin the next contact with a jump.
+            // The output is silent now. A filter that still oscillates would start the next contact with a jump.
             self.taps.reset();
             self.stream.silence();
         }
@@ -347,7 +352,7 @@ impl Engine {
         }
     }
 
-    /// Contact of the tip, in frames of the stream.
+    /// Last contact of the tip, in frames of the stream.
     fn touching(&self) -> Touching {
         let Some((landed_secs, touched_secs)) = self.player.contact_secs() else { return Touching::Never };
         let frame = |secs: f64| (secs * self.device_rate_hz).round() as u64;
@@ -376,7 +381,8 @@ impl Engine {
         self.taps.add_to(rest);
     }
 
-    /// Returns retired textures that no voice uses any more. A texture stays in its slot while the queue is full.
+    /// Queues retired textures that no voice uses any more, to be freed by the handle. A texture stays in its slot
+    /// while the queue is full.
     fn give_back(&mut self) {
         let Self { slots, stream, returned, .. } = self;
         for id in 0..SLOTS as TextureId {
@@ -392,7 +398,7 @@ impl Engine {
         }
     }
 
-    /// Returns an object to be freed. If the queue is full, the object is leaked and counted.
+    /// Queues an object to be freed by the handle. If the queue is full, the object is leaked and counted.
     fn return_or_leak(&mut self, thing: Returned) {
         if let Err(PushError::Full(thing)) = self.returned.push(thing) {
             std::mem::forget(thing);

@@ -1,7 +1,7 @@
 //! Automatic stroke: an endless periodic tip motion at a set speed and force.
 //!
-//! Every path is a fixed curve parameterized by distance. At `distance = speed × time` the tip has one position for any
-//! speed, so a stroke whose speed changes continues from its position.
+//! Every path is a fixed curve parameterized by distance, the integral of the set speed over time. The tip position
+//! depends on this distance only, so a stroke whose speed changes continues from its position.
 
 use std::f64::consts::PI;
 
@@ -16,7 +16,8 @@ pub const TURN_SHARE: f64 = 0.025;
 /// Largest relative deviation of a scribble's speed from the set speed.
 pub const SCRIBBLE_SPREAD: f64 = 0.02;
 
-/// Curve of an automatic stroke, within a circle of the stroke's extent around the center of the pad.
+/// Curve of an automatic stroke, within a circle around the center of the pad; the diameter of the circle is the extent
+/// of the stroke.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Path {
     /// Back and forth along a line, at the set speed except in the reversals ([`TURN_SHARE`]).
@@ -37,7 +38,7 @@ pub struct Hand {
     pub speed_mps: f32,
     /// Normal force in N, constant.
     pub force_n: f32,
-    /// Largest width of the stroke in m.
+    /// Extent: diameter of the circle that contains the stroke, in m.
     pub extent_m: f32,
 }
 
@@ -47,7 +48,8 @@ impl Hand {
         self.touch_at_distance(f64::from(self.speed_mps) * time_secs)
     }
 
-    /// Returns the touch at `distance_m` along the stroke. The distance advances at the set speed in reversals too.
+    /// Returns the touch at `distance_m` along the stroke. The distance advances at the set speed during a reversal
+    /// too, although the tip itself is slower there.
     pub fn touch_at_distance(self, distance_m: f64) -> Touch {
         let extent_m = f64::from(self.extent_m);
         let u = distance_m / extent_m;

@@ -1,9 +1,9 @@
 //! Estimation of the tip speed from reported positions.
 //!
 //! Reports arrive at irregular times with a position noise of some hundredths of a millimeter. The Kalman filter
-//! follows a stroke with a delay of a few milliseconds. The low-pass used with the published (HaTT) texture models
-//! needs about 20 ms. Both are available, so that recordings made with either can be reproduced. Golden values:
-//! `vectors/l_stylus`.
+//! follows a stroke with a delay of a few milliseconds. The low-pass used with the published texture models of the Penn
+//! Haptic Texture Toolkit (HaTT) has a delay of about 20 ms. All filters of [`SpeedFilter`] are available, so that
+//! recordings made with any of them can be reproduced. Golden values: `vectors/l_stylus`.
 
 use std::f64::consts::TAU;
 
@@ -12,7 +12,7 @@ pub const HOLD_SECS: f64 = 0.020;
 /// Time constant of the decay after the hold, in seconds.
 pub const DECAY_SECS: f64 = 0.015;
 
-/// Speed estimator, with its parameters.
+/// Filter that estimates the speed, with its parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SpeedFilter {
     /// A constant-velocity Kalman filter on each axis.
@@ -102,7 +102,7 @@ impl Axis {
     }
 }
 
-/// A speed filter with its state for one stroke.
+/// Speed filter with its state during a stroke.
 #[derive(Clone, Debug)]
 pub struct SpeedEstimator {
     filter: SpeedFilter,
@@ -151,8 +151,8 @@ impl SpeedEstimator {
     }
 }
 
-/// Returns the speed to play `age_secs` after the report that gave `speed_mps`. It is held for [`HOLD_SECS`] and then
-/// decays with [`DECAY_SECS`], because a stylus at rest sends no reports.
+/// Returns the speed to play `age_secs` after the report that gave `speed_mps`. The speed is held for [`HOLD_SECS`] and
+/// then decays with the time constant [`DECAY_SECS`], because a stylus at rest sends no reports.
 pub fn held_speed(speed_mps: f64, age_secs: f64) -> f64 {
     // A negative or invalid age counts as zero.
     let late_secs = (age_secs - HOLD_SECS).max(0.0);

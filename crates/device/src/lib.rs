@@ -7,8 +7,8 @@
 //! - The engine has two halves: an [`engine::Handle`] for the controlling thread and an [`engine::Engine`] for the
 //!   audio callback. Controls that must agree are sent as one `Copy` struct. Textures and strokes are sent through
 //!   bounded queues and returned to be freed. A full queue returns the value to the sender.
-//! - An output is opened by its id and never replaced by another one. If it is lost, there is silence, and
-//!   [`status::Status`] reports it.
+//! - An output is opened by its id and never replaced by another one. If the output is lost, nothing plays, and
+//!   [`status::Status`] reports the loss.
 //!
 //! ```
 //! use shagreen_device::engine::{self, ChannelMask, EngineConfig};

@@ -9,12 +9,13 @@ use rtrb::{Consumer, Producer, RingBuffer};
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::status::{LinkState, Status};
 
-/// Time without a callback, in seconds, after which a device is stalled; with errors meanwhile, it is lost.
+/// Time without a callback, in seconds, after which a device counts as stalled. If the device then reports an error, it
+/// counts as lost.
 pub const STALL_SECS: f64 = 1.0;
 /// The same limit, in seconds, for a newly opened device before its first callback; some take seconds to start.
 pub const START_SECS: f64 = 5.0;
 
-/// Text of the loss to another process.
+/// Message when another process has taken the output over.
 const TAKEN_OVER: &str = "the output was taken over by another Shagreen; open it again to take it back";
 
 /// Counters that all threads share without waiting.

@@ -18,7 +18,7 @@ pub(crate) struct TimedTouch {
 }
 
 impl TimedTouch {
-    /// A touch whose proximity equals its contact.
+    /// A touch of a stylus that is near only while it touches.
     pub(crate) fn new(touch: Touch, time: Instant, landing_mps: Option<f32>) -> Self {
         Self { touch, time, landing_mps, is_near: touch.contact.force_n > 0.0 }
     }
@@ -31,7 +31,8 @@ pub struct LiveInput {
 }
 
 impl LiveInput {
-    /// Sends a touch of the stylus at `time`. The newest touch counts; its speed decays if no other follows.
+    /// Sends the touch of the stylus at `time`. It applies until the next touch; if none follows, its speed decays
+    /// ([`crate::kinematics::held_speed`]).
     ///
     /// # Errors
     /// Returns the touch if the queue is full, which happens only when the output has stopped.
@@ -48,7 +49,7 @@ impl LiveInput {
         self.push(TimedTouch::new(touch, time, landing_mps))
     }
 
-    /// Sends that the stylus is in proximity, above the position of `touch`. Live input takes over from now on if the
+    /// Reports that the stylus is in proximity, above the position of `touch`. Live input takes over from now on if the
     /// controls permit it ([`crate::controls::Takeover`]).
     ///
     /// # Errors

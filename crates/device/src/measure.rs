@@ -37,7 +37,7 @@ pub enum Listener {
         id: String,
         /// Channel, counted from zero.
         channel_idx: usize,
-        /// Acceleration at a sample of 1.0, in m/s².
+        /// Acceleration that gives a sample value of 1.0, in m/s².
         sensitivity_mps2: f64,
     },
     /// The accelerometer of a receiver on a serial port.
@@ -57,7 +57,7 @@ pub struct Heard {
     /// Sample rate, in Hz.
     pub rate_hz: f64,
     /// Status of the output at the end. Underruns, errors and limited samples count from the start of the measurement;
-    /// `heat_gain` is the lowest thermal gain during it.
+    /// `heat_gain` is the lowest gain of the thermal limiter during the measurement.
     pub status: Status,
 }
 
@@ -69,7 +69,7 @@ impl Heard {
 }
 
 /// Plays a drive signal on output `id`, with these limits and channels, and returns the recorded acceleration.
-/// `drive_at` makes the drive for the output's sample rate in Hz.
+/// `drive_at` returns the samples of the drive signal for the output's sample rate in Hz.
 ///
 /// `go_on` gets the completed fraction, 0..1, and returns whether to continue. If it returns false, and after every
 /// error, the signal fades out before the output is closed.
@@ -115,7 +115,7 @@ pub fn measure<E: Display>(
         }
         Listener::Serial { port, baud } => {
             let serial = SerialOptions { baud: *baud, ..SerialOptions::default() };
-            // The channels apply to the output; a receiver that is only the sensor gets its own.
+            // `channels` applies to the output; a receiver that serves only as the sensor gets the default channels.
             let is_output = serial_id(id) == serial_id(port);
             let listening = OpenOptions { channels: ChannelMask::FIRST_TWO, ..options };
             let mut connection = serial::open(port, if is_output { options } else { listening }, serial)?;
@@ -145,7 +145,7 @@ fn check_sensor(port: &str, receiver: &ReceiverInfo) -> Result<(), DeviceError> 
     }
     let message = format!(
         "the receiver `{}` on `{port}` has no sensor; connect an accelerometer that its firmware supports, or use an \
-         audio input: `shagreen devices` lists them",
+         audio input that `shagreen devices` lists",
         receiver.name
     );
     Err(DeviceError::new(DeviceErrorKind::Unsupported, message))

@@ -13,8 +13,8 @@ use crate::urgency::run_before_others;
 
 /// Number of channels of the silent output.
 pub(crate) const CHANNELS: u16 = 2;
-/// Delay after which the clock is assumed to have been suspended; the missed time is skipped and counted as an
-/// underrun.
+/// Delay behind the clock above which the computer is assumed to have been suspended. The missed time is skipped and
+/// counted as one underrun.
 const SUSPENDED: Duration = Duration::from_secs(1);
 
 /// A thread that requests samples from the engine like a device.

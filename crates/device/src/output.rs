@@ -1,7 +1,7 @@
 //! Actuator outputs: listing and opening.
 //!
-//! An output is opened by its id. If it is lost, there is silence and [`Handle::loss`] gives the reason. No other
-//! output ever replaces it, because actuator drive must not reach someone's headphones.
+//! An output is opened by its id. If the output is lost, nothing plays, and [`Handle::loss`] gives the reason. No other
+//! output ever replaces it, because the drive signal of an actuator must not reach someone's headphones.
 //!
 //! An output has one owner: a second Shagreen cannot open it unless it takes it over, because the limits of two engines
 //! would add up.
@@ -42,15 +42,15 @@ pub fn list_outputs() -> Vec<OutputInfo> {
     outputs
 }
 
-/// Opens output `id`, which is silent until its handle sets controls. An id of `serial:` and a port name opens the
-/// receiver on that port with [`SerialOptions::default`].
+/// Opens output `id`, which is silent until its handle sets controls. An id such as `serial:COM3` opens the receiver on
+/// that serial port with [`SerialOptions::default`].
 ///
 /// # Errors
 /// - [`DeviceErrorKind::NotFound`] if there is no such output.
-/// - [`DeviceErrorKind::Busy`] if another program uses it.
-/// - [`DeviceErrorKind::Claimed`] if another Shagreen plays on it and it is not taken over.
+/// - [`DeviceErrorKind::Busy`] if another program uses the output.
+/// - [`DeviceErrorKind::Claimed`] if another Shagreen plays on the output and the options do not take it over.
 /// - [`DeviceErrorKind::Denied`] if the system refuses access.
-/// - [`DeviceErrorKind::Unsupported`] if it has no suitable rate, format or channel.
+/// - [`DeviceErrorKind::Unsupported`] if the output has no suitable rate, format or channel.
 /// - [`DeviceErrorKind::Config`] if the options are contradictory.
 /// - [`DeviceErrorKind::Unavailable`] if the system service or the receiver on a serial port does not respond.
 /// - [`DeviceErrorKind::Backend`] if the system fails.
@@ -74,7 +74,8 @@ pub fn is_same_output(first: &str, second: &str) -> bool {
     first == second || claimed_id(first) == claimed_id(second)
 }
 
-/// Id under which an output is claimed. An ALSA route to the sound server is the server's default output.
+/// Id under which an output is claimed. An ALSA device that leads to the sound server has the id of the server's
+/// default output.
 fn claimed_id(id: &str) -> Cow<'_, str> {
     #[cfg(target_os = "linux")]
     if matches!(id, "alsa:default" | "alsa:pulse" | "alsa:pipewire" | "alsa:sysdefault")
@@ -119,7 +120,8 @@ fn open_pulse(id: &str, options: OpenOptions) -> Result<(Handle, Running), Devic
     Ok((handle, running))
 }
 
-/// Opens the silent output. `tap` gets every block that it plays, two channels interleaved, on the output's thread.
+/// Opens the silent output. `tap` is called on the output's thread with every block that the output plays, two channels
+/// interleaved.
 ///
 /// # Errors
 /// - [`DeviceErrorKind::Config`] if the options are contradictory.

@@ -2,8 +2,9 @@
 //!
 //! The limiter bounds what one engine sends. Two engines on one output would add up to twice its ceiling.
 //!
-//! A claim is an advisory lock on a file named after the output, which the system releases when the process ends in any
-//! way. A newcomer that takes over writes a request next to it. The owner then goes silent and releases the lock.
+//! A claim is an advisory lock on a file named after the output. The system releases the lock when the process ends in
+//! any way. A process that takes the output over writes a request file next to the lock file. The owner then goes
+//! silent and releases the lock.
 
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
@@ -16,7 +17,7 @@ use std::time::{Duration, Instant};
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::Shared;
 
-/// Interval at which the owner looks for a request, and the newcomer for the release.
+/// Interval at which the owner checks for a request, and the other process for the release of the lock.
 const POLL: Duration = Duration::from_millis(50);
 /// Time that an owner has to close the device after it was silenced.
 const PATIENCE_WITH_OWNER: Duration = Duration::from_secs(3);
@@ -50,10 +51,10 @@ impl Claim {
             let process = fs::read_to_string(&owner).ok().and_then(|text| text.trim().parse::<u32>().ok());
             let process = process.map_or_else(String::new, |process| format!(" (process {process})"));
             let message = if take_over {
-                format!("the other Shagreen{process} does not release the output `{id}`; close it")
+                format!("the other Shagreen{process} does not release the output `{id}`; close that Shagreen")
             } else {
                 format!(
-                    "another Shagreen{process} plays on the output `{id}`; close it, or take the output over"
+                    "another Shagreen{process} plays on the output `{id}`; close that Shagreen, or take the output over"
                 )
             };
             DeviceError::new(DeviceErrorKind::Claimed, message)
@@ -81,7 +82,8 @@ impl Claim {
         Ok(Some(Self { lock: file, request }))
     }
 
-    /// Keeps the claim until the guard is dropped, or until it is taken over: the output is then marked as lost.
+    /// Keeps the claim until the guard is dropped or another process takes the output over, which marks the output as
+    /// lost.
     ///
     /// # Errors
     /// The system cannot start a thread.
@@ -148,7 +150,7 @@ fn folder() -> PathBuf {
     std::env::temp_dir().join(format!("shagreen-outputs-{}", file_stem(&user)))
 }
 
-/// Readable and unique file name of an id: its letters and digits, and a hash (FNV-1a) of all of it.
+/// Readable and unique file name of an id: its letters and digits, and a hash (FNV-1a) of the whole id.
 fn file_stem(id: &str) -> String {
     let hash = id.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)

@@ -1,8 +1,8 @@
 //! Conversion of a pen's unitless pressure to newtons.
 
-/// Map from a pressure of 0..1 to a force: `F = F₀ + (F_max − F₀)(e^{cp} − 1)/(e^c − 1)`. It is steeper towards full
-/// pressure, because usual pens report disproportionately high pressure at low forces. Golden values:
-/// `vectors/l_stylus`.
+/// Map from a pressure of 0..1 to a force: `F = F₀ + (F_max − F₀)(e^{cp} − 1)/(e^c − 1)`. With a positive curvature
+/// `c`, the map is steeper towards full pressure, because usual pens report disproportionately high pressure at low
+/// forces. Golden values: `vectors/l_stylus`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PressureMap {
     /// Activation force `F₀` of the tip, in N.
@@ -17,7 +17,7 @@ impl PressureMap {
     /// Default map for pens that declare no force.
     pub const USUAL: Self = Self { activation_n: 0.03, full_n: 4.0, bend: 2.0 };
 
-    /// Force in N at `pressure` (clamped to 0..1); zero without contact.
+    /// Force in N at `pressure` (clamped to 0..1); zero without contact or if `pressure` is NaN.
     pub fn force_n(&self, pressure: f64, touching: bool) -> f64 {
         if !touching || pressure.is_nan() {
             return 0.0;

@@ -2,8 +2,8 @@
 //!
 //! Other libraries let the server move a stream to another sink when its own is removed; actuator drive would then
 //! reach someone's headphones. Here, a stream names its sink and forbids moves, so the server ends it instead. The
-//! protocol messages are those of the crate `pulseaudio`, which `cpal` also uses. That crate's client does not report
-//! streams that were ended, moved or ran out of samples, so only its messages are used.
+//! protocol messages are those of the crate `pulseaudio`, which `cpal` also uses. The client of that crate does not
+//! report that a stream was ended, was moved or ran out of samples, so only the messages are used.
 
 mod connection;
 mod playback;

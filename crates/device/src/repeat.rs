@@ -7,7 +7,7 @@ use crate::touch::Touch;
 use crate::track::Track;
 
 /// Time with a lifted tip between the end of a stroke and its next start, in seconds. The way back is not part of the
-/// stroke, and the pause keeps the next contact onset from being taken for contact bounce.
+/// stroke, and the pause keeps the next contact onset from being ignored as contact bounce.
 pub const LIFT_SECS: f64 = 0.1;
 
 /// Parameters of the repetition.
@@ -23,9 +23,9 @@ impl Repeat {
     /// The stroke as it was recorded.
     pub const AS_RECORDED: Self = Self { tempo: 1.0, force: 1.0 };
 
-    /// Returns the position in track time `step_secs` after `track_secs`, from zero through the end of the track and
-    /// the lift that follows. If a slower tempo shortens the lift in track time so that it is over, the stroke starts
-    /// again. An invalid tempo stops the tip.
+    /// Returns the track time `step_secs` after `track_secs`. Track time runs from zero over the duration of the track
+    /// and of the lift after it, and then restarts at zero. At a slower tempo, the lift takes less track time; if it is
+    /// then already over, the stroke starts again. An invalid tempo stops the tip.
     pub(crate) fn advanced(self, track: &Track, track_secs: f64, step_secs: f64) -> f64 {
         let tempo = f64::from(self.tempo);
         if !(tempo.is_finite() && tempo > 0.0) {

@@ -49,11 +49,15 @@ impl Running {
         Self { facts, shared, device: Box::new(device), claim: None }
     }
 
-    /// The output with a claim that it keeps until it is closed.
+    /// Attaches a claim, which the output holds until it is closed.
     pub(crate) fn claimed_by(self, claim: Option<Claim>) -> Result<Self, DeviceError> {
         let guard = claim.map(|claim| claim.guard(Arc::clone(&self.shared))).transpose();
-        let no_thread =
-            |error| DeviceError::new(DeviceErrorKind::Backend, format!("no thread can be started: {error}"));
+        let no_thread = |error| {
+            DeviceError::new(
+                DeviceErrorKind::Backend,
+                format!("the output cannot be opened: the system cannot start a thread ({error})"),
+            )
+        };
         Ok(Self { claim: guard.map_err(no_thread)?, ..self })
     }
 
@@ -63,9 +67,9 @@ impl Running {
         &self.shared
     }
 
-    /// Waits until the samples that are rendered so far have been played, at most for `patience`, so that closing the
-    /// output does not cut them off. Returns whether they have been played. A device with unknown latency is assumed to
-    /// be late by two blocks.
+    /// Waits until all samples rendered so far have been played, at most for `patience`, so that closing the output
+    /// does not cut them off. Returns whether they have been played. If the device states no latency, two blocks are
+    /// assumed.
     ///
     /// Before this call, wait until [`Handle::status`] shows that all wanted samples are rendered.
     pub fn drain(&self, patience: Duration) -> bool {

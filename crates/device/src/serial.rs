@@ -33,9 +33,9 @@ use crate::error::DeviceError;
 use crate::output_options::{Made, OpenOptions, make_engine};
 use crate::running::{Running, RunningFacts};
 
-/// Default baud rate; adapters and microcontrollers generate it without rounding.
+/// Default baud rate, which adapters and microcontrollers can generate exactly.
 pub const USUAL_BAUD: u32 = 1_000_000;
-/// Default watchdog time: the receiver is silent after this time without samples, in ms.
+/// Default watchdog time, in ms: without samples for this time, the receiver becomes silent.
 pub const USUAL_WATCHDOG_MS: u16 = 50;
 
 /// Options for a serial output, in addition to [`OpenOptions`].

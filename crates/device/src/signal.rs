@@ -24,13 +24,13 @@ pub enum SignalError {
     #[error("the signal has no samples; make it longer")]
     Empty,
     /// The signal is too long.
-    #[error("the signal takes {secs:.1} s, the limit is {MAX_SIGNAL_SECS} s; play a shorter one")]
+    #[error("the signal lasts {secs:.1} s, but the limit is {MAX_SIGNAL_SECS} s; play a shorter one")]
     TooLong {
         /// Duration in seconds.
         secs: f64,
     },
     /// The sample rate is not a positive number.
-    #[error("the sample rate of the signal is {rate_hz} Hz; use that of the output")]
+    #[error("the sample rate of the signal is {rate_hz} Hz; use the sample rate of the output")]
     Rate {
         /// Given rate, in Hz.
         rate_hz: f64,
@@ -44,8 +44,9 @@ pub enum SignalError {
 }
 
 impl Signal {
-    /// A signal with these samples at the sample rate in Hz of the output. The samples are accelerations in m/s², or
-    /// drive as fractions of the device's full scale; the actuator's limits apply to both.
+    /// A signal with these samples; `rate_hz` is the sample rate of the output, in Hz. The samples are accelerations in
+    /// m/s², or drive as fractions of the device's full scale, according to `driven`. The actuator's limits apply to
+    /// both.
     ///
     /// # Errors
     /// [`SignalError`] names the problem.

@@ -22,8 +22,8 @@ pub enum LinkState {
 /// Latency from a live touch to the device's output, based on the latency that the device states.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Latency {
-    /// Latency of the last touch, from its report to the middle of the change of texture, in seconds; zero before the
-    /// first.
+    /// Latency of the last touch, from its report to the middle of the resulting ramp in the output, in seconds; zero
+    /// before the first touch.
     pub stroke_secs: f32,
     /// Latency that a tap at the last touch would have, from its report to the first sample of the tap transient, in
     /// seconds.
@@ -92,7 +92,8 @@ pub struct Status {
     pub follows_live: bool,
     /// Position and contact of the tip.
     pub touch: Touch,
-    /// Level (RMS over about 50 ms) of the texture before gain and limiter, in m/s².
+    /// Level (RMS over about 50 ms) of the texture or of an acceleration signal, before gain, equalizer and limiters,
+    /// in m/s².
     pub level_mps2: f32,
     /// Recent output peak as a fraction of full scale, 0..1; it decays by half in about 0.2 s.
     pub peak: f32,
@@ -100,6 +101,6 @@ pub struct Status {
     pub frames_played: u64,
     /// Time since the input was last switched or its track replaced, in seconds of the engine's clock.
     pub input_secs: f64,
-    /// Number of objects that the callback could neither keep nor return, and leaked.
+    /// Number of objects that the callback leaked because the queue of objects to be freed was full.
     pub leaked: u64,
 }

@@ -26,7 +26,9 @@ fn explain(reason: texture::TextureError) -> &'static str {
     match reason {
         texture::TextureError::Order => "the order is zero or too high",
         texture::TextureError::Range => "the rate, maximum speed or maximum force is not a positive number",
-        texture::TextureError::Triangle => "no triangle, or one refers to a node that does not exist",
+        texture::TextureError::Triangle => {
+            "there is no triangle, or a triangle refers to a node that does not exist"
+        }
         texture::TextureError::Excitation => "some nodes have an excitation and others do not",
         texture::TextureError::Number => "a value is not finite, or frequencies do not ascend",
         _ => "it violates a rule of the renderer",

@@ -5,9 +5,9 @@ use shagreen_synth::contact::Contact;
 /// State of the tip on the pad at one moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Touch {
-    /// Position to the right of the pad's center, in m.
+    /// Position from the pad's center towards its right edge, in m.
     pub x_m: f32,
-    /// Position above the pad's center, in m.
+    /// Position from the pad's center towards its upper edge, in m.
     pub y_m: f32,
     /// Speed and force of the tip; a force of zero is a lifted tip.
     pub contact: Contact,

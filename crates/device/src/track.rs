@@ -7,9 +7,11 @@ use crate::touch::{Touch, mix_contacts};
 
 /// Rate of a track's points, in Hz.
 pub const TRACK_RATE_HZ: f64 = 1000.0;
-/// Smallest gap that separates two strokes, in seconds; recordings with longer intervals have a longer one.
+/// Shortest time without reports that separates two strokes, in seconds; longer for recordings with long report
+/// intervals.
 pub const LIFT_GAP_SECS: f64 = 0.050;
-/// Gap in median intervals that separates two strokes; it allows for two lost reports in a row.
+/// The same limit for recordings with long report intervals, in median report intervals; it tolerates two lost reports
+/// in a row.
 const LIFT_GAP_INTERVALS: f64 = 3.5;
 /// Longest track, in seconds; a longer one probably has times in another unit.
 pub const MAX_TRACK_SECS: f64 = 3600.0;
@@ -19,9 +21,9 @@ pub const MAX_TRACK_SECS: f64 = 3600.0;
 pub struct PenSample {
     /// Time in seconds on any clock.
     pub time_secs: f64,
-    /// Position to the right of the pad's center, in m.
+    /// Position from the pad's center towards its right edge, in m.
     pub x_m: f64,
-    /// Position above the pad's center, in m.
+    /// Position from the pad's center towards its upper edge, in m.
     pub y_m: f64,
     /// Normal force in N; ignored while the tip is lifted.
     pub force_n: f64,
@@ -82,7 +84,7 @@ pub struct TrackWarnings {
 /// Each contact segment gets its speed from the Kalman filter, with the actual times of the reports. Between two
 /// reports, position, speed and force are interpolated linearly. Before a lift, force is held, and speed is held and
 /// decays, as for a live pen. Where reports end without a lift, speed is held and decays, and the tip is lifted after
-/// [`LIFT_GAP_SECS`], or after some intervals of a slower recording.
+/// [`LIFT_GAP_SECS`], or later in recordings with long report intervals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     touches: Box<[Touch]>,

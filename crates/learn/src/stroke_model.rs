@@ -1,6 +1,6 @@
 //! A trained network that predicts attributes from strokes, and its file.
 
-use candle_core::Device;
+use candle_core::{Device, Tensor};
 use serde::{Deserialize, Serialize};
 use shagreen_core::recording::fit::Stroke;
 
@@ -105,6 +105,13 @@ impl StrokeModel {
             return Err(TrainingError::Sizes);
         }
         check(&card, &architecture)?;
+        // Before a network of any size is made: the file must hold its weights.
+        let (n_stated, n_held) =
+            (architecture.n_parameters().1, numbers.values().map(Tensor::elem_count).sum::<usize>());
+        if n_held < n_stated {
+            let what = format!("they have {n_held} values, the network of the header has {n_stated}");
+            return Err(ModelFileError::Shape(candle_core::Error::Msg(what)).into());
+        }
         let mut network = CnnLstm::new(architecture, 0, &device)?;
         network.restore(&numbers).map_err(ModelFileError::Shape)?;
         Ok((Self { network, scale, device }, card))

@@ -58,3 +58,37 @@ pub fn plane_at(texture: &TextureEntry, rate: Hertz, reporter: &dyn Reporter) ->
     ));
     Ok(Plane::new(&converted.model))
 }
+
+#[cfg(test)]
+mod tests {
+    use shagreen_core::space::SpacePoint;
+    use shagreen_core::space::authoring::{Blending, Outside, Voice};
+    use shagreen_core::texture::TextureModel;
+    use shagreen_core::texture::blend::Mode;
+    use shagreen_formats::built_in::BuiltIn;
+
+    use super::authoring;
+    use crate::report::Warnings;
+
+    /// Blends are not judged when they are made; a model that is read from a file is.
+    #[test]
+    fn no_blend_of_the_starter_library_would_be_refused_in_a_file() {
+        let library = BuiltIn::Starter.read().unwrap();
+        for (mode, outside) in [
+            (Mode::Field, Outside::Clamped),
+            (Mode::Field, Outside::Extrapolated),
+            (Mode::Parametric, Outside::Clamped),
+        ] {
+            let authoring = authoring(&library, mode, &Warnings::default()).unwrap();
+            for step in 0..121 {
+                let at = SpacePoint::new(f64::from(step % 11) * 10.0, f64::from(step / 11) * 10.0).unwrap();
+                let authored =
+                    authoring.author(at, &Blending { mode, outside, ..Blending::default() }).unwrap();
+                for (voice, _) in authored.voices() {
+                    let Voice::Made(model) = voice else { continue };
+                    TextureModel::new(model.rate(), model.nodes().to_vec(), model.friction()).unwrap();
+                }
+            }
+        }
+    }
+}

@@ -91,6 +91,17 @@ impl LiftGate {
     /// Multiplies samples by the gain, with the last frame in contact; advances the frame.
     fn fade(&mut self, samples: &mut [f32], touched: Option<u64>) {
         let open_until = touched.map(|touched| touched + self.hold_frames);
+        let end = self.frame + samples.len() as u64;
+        // Most blocks lie wholly within a contact or between two.
+        if self.gain == 1.0 && open_until.is_some_and(|until| end <= until + 1) {
+            self.frame = end;
+            return;
+        }
+        if self.gain == 0.0 && open_until.is_none_or(|until| until < self.frame) {
+            samples.fill(0.0);
+            self.frame = end;
+            return;
+        }
         for sample in samples {
             self.gain = match open_until {
                 // Before the onset there was silence, so it needs no fade.

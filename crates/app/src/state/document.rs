@@ -241,6 +241,10 @@ fn conflict(path: &Path, base: Option<&Project>, here: &Project, present: &[u8])
     Conflict { path: path.to_owned(), sha256: sha256_hex(present), differences }
 }
 
+#[cfg(all(test, target_os = "linux", target_arch = "x86_64"))]
+#[path = "document/tests/faults.rs"]
+mod faults;
+
 #[cfg(test)]
 #[path = "document/tests/two_windows.rs"]
 mod two_windows;

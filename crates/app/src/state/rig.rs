@@ -1,5 +1,5 @@
-//! The device setup: output, actuator and pen. It belongs to the machine and not to the project, so undo does not
-//! change it.
+//! Device setup: settings of output, actuator and pen. They are stored for this computer, not in the project, so undo
+//! does not change them.
 
 use anyhow::bail;
 use shagreen_core::actuator::{Actuator, ActuatorError, Drive, drive_config};
@@ -29,7 +29,7 @@ pub struct Mounted {
 }
 
 impl Mounted {
-    /// Actuator with another load than that of its profile, if `load` is given.
+    /// Actuator with this load; with `None`, with the load of its profile.
     ///
     /// # Errors
     /// Those of [`Actuator::at_load`].
@@ -65,23 +65,23 @@ pub struct MissingActuator {
     pub reason: String,
 }
 
-/// Device setup: output, actuator and pen.
+/// Device setup: settings of output, actuator and pen. The output itself is selected separately.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rig {
     /// Buffer size of the output, in frames.
     pub buffer_frames: u32,
     /// The only driven channel, counted from zero; `None` drives the first two.
     pub channel: Option<usize>,
-    /// The actuator with its load. Without one, the drive signal is proportional to acceleration.
+    /// The actuator with its load. `None` is an unknown actuator, whose drive signal is proportional to acceleration.
     pub mounted: Option<Mounted>,
-    /// Stored actuator that is unavailable. The limits of the connected actuator are then unknown, so nothing is driven
-    /// until the user selects an actuator or none.
+    /// Stored actuator that is unavailable. While there is one, the limits of the connected actuator are unknown, so no
+    /// output opens until the user selects an actuator or [`UNCALIBRATED`](crate::strings::devices::UNCALIBRATED).
     pub missing: Option<MissingActuator>,
     /// Whether the actuator's response is equalized.
     pub equalizes: bool,
     /// Voltage at the actuator at full scale of the output, in V.
     pub full_scale_volts: f64,
-    /// Acceleration at full scale of the output in m/s², used without an actuator.
+    /// Acceleration at full scale of the output in m/s², used for an unknown actuator.
     pub full_scale_mps2: f64,
     /// Id of the pen that is read.
     pub pen: Option<String>,
@@ -135,7 +135,7 @@ impl Rig {
         self.channel.map_or(ChannelMask::FIRST_TWO, ChannelMask::only)
     }
 
-    /// Whether an output that was opened with `other` must be reopened.
+    /// Whether an output that was opened with the settings `other` must be reopened to apply these settings.
     pub fn opens_unlike(&self, other: &Self) -> bool {
         let opening = |rig: &Self| {
             (

@@ -2,17 +2,19 @@
 
 use std::ops::RangeInclusive;
 
+use crate::strings::devices::UNCALIBRATED;
+
 /// The stored actuator cannot be used.
 pub fn no_actuator(reason: &str) -> String {
     format!(
-        "No output was opened: the last used actuator is unavailable ({reason}). Choose an actuator, or none, in “Devices…”."
+        "No output was opened: the last used actuator is unavailable ({reason}). Choose an actuator, or “{UNCALIBRATED}”, in “Devices…”."
     )
 }
 
 /// The stored actuator cannot be read from the settings.
 pub fn unreadable(path: &str, reason: &str) -> String {
     format!(
-        "No output was opened: the settings do not say which actuator is connected. Choose the actuator in “Devices…”, then an output ({path}: {reason})"
+        "No output was opened: the settings do not say which actuator is connected. Choose the actuator in “Devices…”, then an output. ({path}: {reason})"
     )
 }
 

@@ -1,9 +1,9 @@
 //! Prediction of a texture's attributes from its model: a few physical features and one Gaussian process per attribute.
 //!
-//! Ratings of a few dozen textures are a small training set, so the features are few. They are the level, its growth
-//! with speed and force, the spectral shape in six bands, friction, and the frequency and decay of the tap transient.
-//! Features that some of the textures lack are left out. Training takes milliseconds, and every prediction has a
-//! standard deviation.
+//! Ratings of a few dozen textures are a small training set, so the features are few. They are the level, its exponents
+//! over speed and force, the relative power in six frequency bands, the friction coefficient, and the frequency and
+//! decay rate of the tap transient. Features that some of the textures lack are left out. Training takes milliseconds,
+//! and every prediction has a standard deviation.
 
 use crate::maths::gaussian_process::{Estimate, GaussianProcess, GaussianProcessError};
 use crate::maths::least_squares::{LeastSquaresError, least_squares};
@@ -18,7 +18,8 @@ const BANDS_HZ: [f64; 7] = [10.0, 30.0, 60.0, 120.0, 200.0, 320.0, 500.0];
 const N_BANDS: usize = BANDS_HZ.len() - 1;
 /// Frequency step within the bands, in Hz.
 const STEP_HZ: f64 = 2.0;
-/// Minimum fraction of the power in a band; a lower fraction is rounded up to it, because it is only filter residue.
+/// Lower limit of the fraction of the power in a band. Smaller fractions are raised to it, because they are only filter
+/// residue.
 const LEAST_SHARE: f64 = 1e-6;
 
 /// Number of features of a texture.
@@ -45,7 +46,7 @@ pub struct Known {
 #[non_exhaustive]
 pub enum AttributeError {
     /// The textures have different numbers of attributes.
-    #[error("texture {index} has {n} attributes, but {expected} are expected")]
+    #[error("texture {index} has {n} attributes, but the first texture has {expected}")]
     Attributes {
         /// Index of the texture.
         index: usize,
@@ -65,7 +66,7 @@ pub enum AttributeError {
     Learning(#[from] GaussianProcessError),
 }
 
-/// Features of a texture at the 25 stroke patterns of the authoring paper.
+/// Features of a texture at the 25 stroke patterns of the authoring paper ([`paper_patterns`]).
 pub fn quantities(model: &TextureModel) -> Quantities {
     let contacts = paper_patterns();
     let Physical {
@@ -128,8 +129,8 @@ pub fn predict(known: &[Known], texture: &Quantities) -> Result<Vec<Estimate>, A
 
 /// Leave-one-out predictions: all attributes of each texture, predicted from the other textures.
 ///
-/// For each texture, everything including the kernel is trained again without it. With more than 60 textures, the
-/// kernels are trained once on all of them, because one texture hardly changes them.
+/// For each texture, everything including the kernel is trained again on the other textures. With more than 60
+/// textures, the kernels are trained once on all textures, because one texture hardly changes them.
 ///
 /// # Errors
 /// See [`AttributeError`].

@@ -19,14 +19,15 @@ use crate::texture::blend::Mode;
 use crate::texture::relief::Relief;
 use crate::texture::tap::Tap;
 
-/// Weighting of the textures in the interpolation modes that combine a few of them.
+/// Weighting of the textures in the interpolation modes that combine a few textures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Weights {
     /// Barycentric weights of the corners of the triangle.
     #[default]
     Barycentric,
-    /// Natural-neighbor weights (Sibson 1981), by the Voronoi area that the point takes from each neighbor. They have
-    /// no kink at triangle edges. Only for [`Mode::Parametric`], because the renderer mixes at most three signals.
+    /// Natural-neighbor weights (Sibson 1981): each weight is proportional to the Voronoi area that the point takes
+    /// from that texture. These weights have no kink at triangle edges. Only for [`Mode::Parametric`], because the
+    /// modes that mix signals mix at most three.
     Natural,
 }
 
@@ -36,8 +37,8 @@ pub enum Outside {
     /// The point is moved to the nearest point of the hull.
     #[default]
     Clamped,
-    /// [`Mode::Field`] extrapolates, up to the point where the noise gain `Σ w²` of the weights would exceed that of a
-    /// copy of one texture.
+    /// [`Mode::Field`] extrapolates, up to the point where the noise gain `Σ w²` of the weights `w` would exceed 1, the
+    /// noise gain of a copy of one texture.
     Extrapolated,
 }
 
@@ -101,11 +102,12 @@ impl Blending {
 /// Weights smaller than this are rounding error and are dropped.
 const LEAST_WEIGHT: f64 = 1e-12;
 
-/// Distances from the hull boundary, in points of the axes. Below the first, Voronoi areas become infinite and lose
-/// precision. Between the two, natural-neighbor weights fade in and barycentric weights fade out.
+/// Distances from the hull boundary, in points of the axes. Below the first, Voronoi areas tend to infinity and lose
+/// precision, so the weights are barycentric. Between the two, natural-neighbor weights fade in and barycentric weights
+/// fade out. Above the second, the weights are those of the natural neighbors.
 const NEAR_HULL: (f64, f64) = (1e-3, 1.0);
 
-/// Radius around a pinned texture within which the field changes into it, in points of the axes.
+/// Largest radius around a pinned texture, in points of the axes, within which the field fades into that texture.
 const LOCK_RADIUS: f64 = 8.0;
 
 /// Result of the interpolation at one point.
@@ -204,7 +206,7 @@ impl Authoring {
         self
     }
 
-    /// Disables reliefs in interpolated textures. Adding up profiles of 65,000 values is too slow for maps with
+    /// Disables reliefs in interpolated textures. Adding up reliefs of 65,000 values is too slow for maps with
     /// thousands of points.
     #[must_use]
     pub fn without_reliefs(mut self) -> Self {
@@ -271,9 +273,9 @@ impl Authoring {
         Some(authored)
     }
 
-    /// Texture at `point` as a single model, in the modes that interpolate one. Near a pinned texture it averages the
-    /// log spectra of the field and of that texture, whereas [`Authoring::author`] mixes their signals. `None` if there
-    /// is no model.
+    /// Texture at `point` as a single model, in the modes that interpolate a model. Near a pinned texture, the model
+    /// averages the log spectra of the field and of that texture, whereas [`Authoring::author`] mixes their signals.
+    /// `None` if there is no model.
     pub fn model(&self, point: SpacePoint, blending: &Blending) -> Option<TextureModel> {
         let authored = self.author(point, blending)?;
         match (authored.lock, self.models.as_deref()) {
@@ -291,8 +293,8 @@ impl Authoring {
         if self.has_reliefs { models.relief(parents) } else { None }
     }
 
-    /// Natural-neighbor weights. On the hull boundary, where Voronoi areas are infinite, they are the barycentric
-    /// weights of the edge; near it, a mixture of both.
+    /// Natural-neighbor weights. On the hull boundary, where Voronoi areas are infinite, the result is the barycentric
+    /// weights of the edge; near the boundary, a mixture of both.
     fn natural_weights(&self, location: &Location) -> Vec<(usize, f64)> {
         let sites = self.space.sites();
         let natural = self.natural.get_or_init(|| {
@@ -321,8 +323,8 @@ impl Authoring {
         weights
     }
 
-    /// The pinned texture whose circle contains the point, and its weight: one at its position, zero on the circle.
-    /// Circles do not overlap.
+    /// The pinned texture whose circle contains the point, and its weight: one at its position, zero on the circle. The
+    /// radius is [`LOCK_RADIUS`] or half the distance to the nearest other pinned texture, so circles do not overlap.
     fn lock(&self, at: SpacePoint, locked: &[usize]) -> Option<(usize, f64)> {
         let placed: Vec<(usize, SpacePoint)> = locked
             .iter()

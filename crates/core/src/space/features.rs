@@ -1,7 +1,7 @@
 //! Feature extraction: describes each texture by a row of named numbers.
 //!
-//! Features are either cepstral coefficients of the stroke patterns of [`crate::texture::patterns`] or a few physical
-//! quantities.
+//! Features are either mel-frequency cepstral coefficients (MFCC) of rendered stroke patterns
+//! ([`crate::texture::patterns`]) or a few physical quantities.
 
 mod error;
 mod physical;
@@ -23,7 +23,8 @@ pub use crate::space::features::physical::{
 /// A texture model and its name.
 #[derive(Clone, Copy, Debug)]
 pub struct NamedTexture<'a> {
-    /// Name of the texture. It also seeds the noise, so the textures of one table have different noise.
+    /// Name of the texture. The seed of the noise also depends on it, so the textures of one table have different
+    /// noise.
     pub name: &'a str,
     /// Model of the texture.
     pub model: &'a TextureModel,
@@ -62,10 +63,10 @@ pub struct FeatureTable {
     pub warnings: Vec<FeatureWarning>,
 }
 
-/// Every coefficient of every frame of every pattern, as in the authoring paper.
+/// Every coefficient of every frame of every pattern, as in the authoring paper ([`crate::space`]).
 ///
 /// The vibration is noise: except for the first few coefficients, a single frame carries no information about the
-/// texture. A selection from tens of thousands of such features for 25 textures is a selection by chance. Use
+/// texture. For 25 textures, a selection from tens of thousands of such features is a selection by chance. Use
 /// [`per_pattern`] instead. `go_on` is called before every texture; returning `false` stops the computation.
 ///
 /// # Errors
@@ -200,7 +201,8 @@ fn cepstral(
         let named = |warning| FeatureWarning::Pattern { texture: texture.name.to_owned(), warning };
         Ok((row, warnings.into_iter().map(named).collect::<Vec<_>>()))
     };
-    // Collected before the first error is returned, so that it does not depend on the threads which error that is.
+    // All results are collected before the first error is returned, so that the returned error does not depend on the
+    // order of the threads.
     let of_textures: Vec<Result<_, FeatureError>> = textures.par_iter().map(of_texture).collect();
     let mut all = Vec::new();
     for of_texture in of_textures {

@@ -2,8 +2,8 @@
 //!
 //! This is a signal measure; no person judges. A texture is described by its vibration level in [`N_CHANNELS`] channels
 //! at nine contacts with typical stroking speeds and forces. The distance between two textures is the difference of
-//! these levels. Models are compared by their power spectral densities, not by rendered noise; signals by Welch's
-//! estimate.
+//! these levels. Models are compared by their power spectral densities, not by rendered noise. Signals are compared by
+//! Welch's estimate of the density.
 
 use crate::dsp::ar::comparison_frequencies;
 use crate::dsp::spectrum::{rms, welch};
@@ -30,8 +30,8 @@ const HIGHEST_CENTER_HZ: f64 = 480.0;
 const WIDTH: f64 = 0.1;
 /// Lower limit of a spectral density, in (m/s²)²/Hz; smaller densities are raised to it.
 const FLOOR_PSD: f64 = 1e-9;
-/// Lower limit of a level, in m/s². It keeps silence finite in decibels; a level a thousand times higher is not yet
-/// felt.
+/// Lower limit of a level, in m/s². It keeps silence finite in decibels; a level a thousand times higher is still below
+/// the detection threshold.
 const FLOOR_MPS2: f64 = 1e-5;
 /// Length of Welch's windows: their bins are half a hertz wide, a quarter of the narrowest channel's standard
 /// deviation.
@@ -130,7 +130,7 @@ impl Profile {
 ///
 /// The upper limits are the highest measured speed and force of any plane, because the other planes are constant above
 /// theirs. The lower limits are the lowest speed and force at which all planes were measured. Below its lowest speed
-/// and force, a texture fades linearly to silence; that is a model assumption, and a comparison there would compare
+/// and force, a texture fades linearly to silence. This is a model assumption, and a comparison there would compare
 /// assumptions.
 pub fn conditions<'a, I: Iterator<Item = &'a Plane>>(planes: I) -> [Contact; N_CONDITIONS] {
     let (mut low, mut high) = ([0.0_f64; 2], [0.0_f64; 2]);
@@ -172,9 +172,9 @@ pub fn level_error_db(a: &Profile, b: &Profile) -> f64 {
     differences.sum::<f64>() / a.levels_db.len() as f64
 }
 
-/// Root-mean-square level of a mixture at one contact, in m/s². It is `sqrt(Σ w² σ²)` for independent signals and
-/// `Σ w σ` with level compensation. For signals that share one excitation, it is the integral of the density. All
-/// parents must have the same sample rate.
+/// Root-mean-square level of a mixture at one contact, in m/s². For parents with weights `w` and levels `σ`, it is
+/// `sqrt(Σ w² σ²)` for independent signals and `Σ w σ` with level compensation. For signals that share one excitation,
+/// it is the square root of the integral of the density. All parents must have the same sample rate.
 pub fn mixture_level_mps2(parents: &[(&Plane, f64)], mode: Mode, contact: Contact) -> f64 {
     let levels = || parents.iter().map(|(plane, weight)| weight * plane.at(contact).level_mps2);
     match (mode, parents) {
@@ -191,9 +191,10 @@ pub fn mixture_level_mps2(parents: &[(&Plane, f64)], mode: Mode, contact: Contac
     }
 }
 
-/// Root-mean-square random error over the channels of Welch's estimate after so many seconds, in dB, for densities that
-/// are constant within a channel. An estimate over a bandwidth `B` and a time `T` has a relative standard deviation of
-/// `1 / sqrt(B T)`, and a Gaussian weighting of standard deviation σ has a bandwidth of `2 sqrt(π) σ`.
+/// Random error of Welch's estimate from a signal of `seconds`: root mean square over the channels, in dB, for
+/// densities that are constant within a channel. An estimate over a bandwidth `B` and a time `T` has a relative
+/// standard deviation of `1 / sqrt(B T)`, and a Gaussian weighting of standard deviation σ has a bandwidth of
+/// `2 sqrt(π) σ`.
 pub fn chance_db(seconds: f64) -> f64 {
     let share =
         |channel: usize| 1.0 / (2.0 * std::f64::consts::PI.sqrt() * WIDTH * center(channel).0 * seconds);

@@ -25,9 +25,10 @@ const BEYOND: f64 = 0.25;
 /// Lower limit of friction coefficients; smaller values are raised to it before the logarithm.
 pub(crate) const LEAST_FRICTION: f64 = 1e-3;
 /// Lower limits of the frequency in Hz, decay rate in 1/s and amplitude in m/s² of a tap transient. Smaller values are
-/// raised to them, because logarithms of values near zero would dominate the average; below them nothing is felt.
+/// raised to these limits, because logarithms of values near zero would dominate the average. A transient at these
+/// limits cannot be felt.
 const LEAST_TAP: [f64; 3] = [1.0, 1.0, 1e-3];
-/// Noise gain `Σ w²` up to which extrapolation is unrestricted; at a gain of one it stops.
+/// Noise gain `Σ w²` up to which extrapolation is unrestricted; at a gain of one, extrapolation stops.
 const SURE: f64 = 0.8;
 /// Number of steps from the hull to the limit of extrapolation.
 const N_STEPS: u32 = 32;
@@ -143,11 +144,11 @@ impl Field {
         self.smoother.weights(at)
     }
 
-    /// Point to which the field extrapolates on the way from `inside` towards `to`. The noise gain `Σ w²`
-    /// must not exceed one anywhere on the way, so the texture is as reliable as a copy of one measured texture. The
-    /// way is shortened from [`SURE`] on, in proportion to the highest noise gain so far. A hard limit at a gain of one
-    /// would be discontinuous: a bump of the noise gain that just reaches or just misses one would make the end point
-    /// jump.
+    /// Farthest point to which the field extrapolates on the straight line from `inside` to `to`. The noise gain `Σ w²`
+    /// must not exceed one anywhere on this line, so the texture is at least as reliable as a copy of one measured
+    /// texture. Where the highest noise gain so far exceeds [`SURE`], every step is shortened in proportion to the
+    /// excess. A hard limit at a gain of one would be discontinuous: a local maximum of the noise gain that just
+    /// reaches or just misses one would make the end point jump.
     pub(crate) fn supported(&self, inside: Xy, to: Xy) -> Xy {
         let along = |t: f64| [0, 1].map(|axis| inside[axis] + t * (to[axis] - inside[axis]));
         let noise = |at: Xy| self.weights(at).iter().map(|w| w * w).sum::<f64>();

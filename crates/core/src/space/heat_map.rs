@@ -40,7 +40,7 @@ impl Quantity {
 /// Computes a quantity at single points of the space.
 #[derive(Clone, Debug)]
 pub struct HeatMapper<'a> {
-    /// Reliefs are disabled, because the quantities depend on the models only.
+    /// Reliefs are disabled, because the quantities do not depend on them.
     authoring: Authoring,
     /// Planes of the textures, by library index.
     planes: &'a [&'a Plane],
@@ -52,7 +52,8 @@ pub struct HeatMapper<'a> {
 }
 
 impl<'a> HeatMapper<'a> {
-    /// Maps a quantity of the textures that `authoring` interpolates from `planes` (by library index), at one contact.
+    /// Maps one quantity at one contact. `authoring` interpolates the textures; `planes` holds the planes of the
+    /// library textures, by library index.
     pub fn new(
         authoring: &Authoring,
         planes: &'a [&'a Plane],

@@ -1,4 +1,4 @@
-//! Inverse-distance weights, as published in the authoring paper.
+//! Inverse-distance weights, as in the authoring paper ([`crate::space`]).
 
 use crate::space::{Location, Space};
 

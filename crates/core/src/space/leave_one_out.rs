@@ -1,8 +1,9 @@
-//! Leave-one-out error of the interpolation, measured on signals. Each texture is removed, interpolated at its position
-//! from the remaining textures, and compared with the original ([`crate::space::fidelity`]).
+//! Leave-one-out error of the interpolation, measured as spectral distance. Each texture is removed, interpolated at
+//! its position from the remaining textures, and compared with the original ([`crate::space::fidelity`]).
 //!
-//! For each texture, everything is recomputed from the remaining ones: triangulation, sampled models, principal
-//! components and the field with its ridge parameter. Nothing of the removed texture enters the interpolated one.
+//! For each removed texture, everything is recomputed from the remaining textures: triangulation, sampled models,
+//! principal components and the field with its ridge parameter. Nothing of the removed texture enters the interpolated
+//! texture.
 
 mod rest;
 mod signals;
@@ -53,7 +54,8 @@ pub struct LeaveOneOut {
     pub textures: Vec<LeftOut>,
     /// Library indices of the textures that have a position but lie on the hull, and so are not evaluated.
     pub on_hull: Vec<usize>,
-    /// Spectral distance in dB between the two textures that are farthest apart on the first axis; `nrs` is zero there.
+    /// Spectral distance in dB between the two textures that are farthest apart on the first axis; [`Outcome::nrs`] is
+    /// zero at this distance.
     pub reach_db: f64,
 }
 
@@ -79,7 +81,7 @@ pub struct Summary {
     pub error_db_median: f64,
     /// Mean absolute level difference, in dB.
     pub level_error_db_mean: f64,
-    /// Fraction of textures for which the original is the closest of all textures to the interpolated one.
+    /// Fraction of textures for which the original is the closest of all textures to the interpolated texture.
     pub rank1: f64,
     /// Fraction of textures for which the original is among the five closest.
     pub top5: f64,
@@ -246,7 +248,8 @@ pub fn leave_one_out(
     measure(textures, methods, plan.signals, &mut author, on_progress)
 }
 
-/// Predicts the texture at the position of a removed one, with every method; also receives the nearest other texture.
+/// Predicts the texture at the position of a removed texture, with every method. The arguments are the removed texture
+/// and the nearest other texture.
 type Author<'a> = dyn FnMut(&Placed, &Placed) -> Result<Vec<Made>, LeaveOneOutError> + 'a;
 
 /// Like [`leave_one_out`], with predictions from `author`.

@@ -24,7 +24,7 @@ const POLES_FOR_ZEROS: usize = 8;
 /// Minimum spacing of line spectral frequencies, in radians.
 const GAP: f64 = 1e-4;
 /// Lower limit of a spectral density, in (m/s²)²/Hz; smaller densities are raised to it. The corresponding level over
-/// 500 Hz is a hundred-thousandth of what a finger feels.
+/// 500 Hz is a hundred-thousandth of the detection threshold of a finger.
 const FLOOR_PSD: f64 = 1e-15;
 
 /// Properties of a texture that are interpolated.
@@ -111,8 +111,8 @@ impl Sampling {
         GrainNode { speed: at.speed, force: at.force, lsf: repair_to(lsf, GAP), level_mps2 }
     }
 
-    /// Line spectral frequencies at the common order. A pure predictor is padded with zeros, which does not change it;
-    /// one with a moving average is fitted again.
+    /// Line spectral frequencies at the common order. A predictor without a moving-average part is padded with zeros,
+    /// which does not change it; a filter with such a part is fitted again.
     fn frequencies_of(&self, grain: &Grain, ln_psd: &[f32]) -> Vec<f64> {
         if grain.ma_lsf.is_empty() {
             let mut ar = grain.ar();
@@ -150,7 +150,7 @@ impl Sampling {
         let fitted = spectra.chunks(SIDE_BY_SIDE).flat_map(|spectra| self.fit(spectra));
         let nodes = self.contacts.iter().zip(fitted);
         let nodes = nodes.map(|(at, (lsf, level_mps2))| self.node(*at, lsf, level_mps2));
-        Ok(TextureModel::new(self.rate, nodes.collect(), friction)?.with_tap(tap))
+        Ok(TextureModel::blended(self.rate, nodes.collect(), friction)?.with_tap(tap))
     }
 
     /// Texture with these line spectral frequencies and ln levels, contact by contact.
@@ -166,7 +166,7 @@ impl Sampling {
     ) -> Result<TextureModel, TextureModelError> {
         let nodes = self.contacts.iter().zip(lsf.chunks_exact(self.order)).zip(ln_level);
         let nodes = nodes.map(|((at, lsf), ln_level)| self.node(*at, lsf.to_vec(), ln_level.exp()));
-        Ok(TextureModel::new(self.rate, nodes.collect(), friction)?.with_tap(tap))
+        Ok(TextureModel::blended(self.rate, nodes.collect(), friction)?.with_tap(tap))
     }
 }
 

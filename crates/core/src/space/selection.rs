@@ -1,23 +1,24 @@
 //! Prediction of a position on an axis from features of a texture: feature selection, models and their validation.
 //!
-//! [`Method::Paper`] is the published chain: sequential forward selection by partial F, parallel analysis, the first
-//! principal component, and a cubic. [`Method::Practical`] predicts better: it is the mean of ridge regressions over
-//! the 5, 20 and 80 features with the highest correlation and over all features. `ridge.rs` documents the alternatives
-//! that were tried.
+//! [`Method::Paper`] is the *published chain*, the method of the authoring paper ([`crate::space`]): sequential forward
+//! selection by partial F, parallel analysis, the first principal component, and a cubic polynomial.
+//! [`Method::Practical`] predicts better: it is the mean of ridge regressions over the 5, 20 and 80 features with the
+//! highest correlation and over all features. `ridge.rs` documents the alternatives that were tried.
 //!
 //! Features that were selected on all textures and then cross-validated on the same textures look predictive even if
-//! they are noise (selection bias). [`validate`] reports that figure, because it is the published one. It also reports
-//! the unbiased one: nested cross-validation, with the selection repeated inside each fold, and its p-value under
-//! permutations.
+//! they are noise (selection bias). [`validate`] reports this biased correlation, because it is the one that is usually
+//! published. It also reports the unbiased correlation from nested cross-validation, where the selection is repeated
+//! inside each fold, and its p-value under permutations.
 //!
 //! # Correlation in nested cross-validation
 //!
 //! A model that has found nothing predicts the mean of its training textures. That mean is low exactly if the left-out
 //! texture is high. The usual correlation of predictions with targets is therefore -1 for such a model in leave-one-out
-//! cross-validation, and negative with larger folds. This is an artifact, not a finding. Here both are measured
-//! relative to the mean of the training textures, `q = prediction - mean`, `t = target - mean`. The correlation is
-//! `r = Σ q t / sqrt(Σ q² Σ t²)` over all left-out textures of all repeats. Under the null hypothesis a left-out target
-//! is independent of `q`, so `Σ q t` is zero on average. A model that predicts the mean has `q = 0` and gets `r = 0`.
+//! cross-validation, and negative with larger folds. This is an artifact, not a finding. Here, predictions and targets
+//! are both measured relative to the mean of the training textures, `q = prediction - mean`, `t = target - mean`. The
+//! correlation is `r = Σ q t / sqrt(Σ q² Σ t²)` over all left-out textures of all repeats. Under the null hypothesis a
+//! left-out target is independent of `q`, so `Σ q t` is zero on average. A model that predicts the mean has `q = 0` and
+//! gets `r = 0`.
 
 mod component;
 mod error;
@@ -41,7 +42,8 @@ use parallel::Thresholds;
 use ridge::{Kernel, Products};
 use standardized::Standardized;
 
-/// Minimum number of textures for a prediction; with fewer, the training part of a fold is too small for a cubic.
+/// Minimum number of textures for a prediction; with fewer, the training part of a fold is too small for a cubic
+/// polynomial.
 pub const MIN_TEXTURES: usize = 8;
 /// Number of textures minus maximum number of features; the difference leaves degrees of freedom for the residuals.
 pub const SPARE_TEXTURES: usize = 8;

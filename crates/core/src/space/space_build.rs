@@ -1,13 +1,15 @@
 //! Construction of an authoring space from human judgments and signal features.
 //!
-//! Sorts yield a perceptual space ([`crate::people::sorting`], [`crate::people::mds`]), and ratings yield adjective
-//! directions in it ([`crate::people::property`]). Projections onto the lines of two adjective pairs are the two axes.
-//! Features of the textures' vibrations predict the positions on these axes ([`crate::space::features`],
-//! [`crate::space::selection`]). Method: W. Hassan, A. Abdulali and S. Jeon, "Authoring new haptic textures based on
-//! interpolation of real textures in affective space", IEEE Transactions on Industrial Electronics 2020.
+//! Sorts yield a perceptual space ([`crate::people::sorting`], [`crate::people::mds`]), and ratings yield a direction
+//! of each adjective pair in this space ([`crate::people::property`]). The projections of the textures onto the
+//! directions of two adjective pairs are their perceived positions on the two axes. Features of the textures'
+//! vibrations predict these positions ([`crate::space::features`], [`crate::space::selection`]). Method: W. Hassan, A.
+//! Abdulali and S. Jeon, "Authoring new haptic textures based on interpolation of real textures in affective space",
+//! IEEE Transactions on Industrial Electronics 2020.
 //!
 //! The axes need not be orthogonal in the perceptual space: both directions and their angle are reported. The
-//! prediction of an axis is always reported with nested cross-validation and a null distribution.
+//! prediction of an axis is always reported with nested cross-validation, and with a permutation test if
+//! [`SpaceOptions::n_permutations`] is above 0.
 
 mod adjectives;
 mod axes;
@@ -65,23 +67,27 @@ pub struct SpaceOptions {
     pub n_dims: usize,
     /// Options of the multidimensional scaling.
     pub mds: MdsOptions,
-    /// Adjective pairs of the two axes, the pole at 0 first. `None` selects rough-smooth and hard-soft if they were
-    /// rated, else the pair with the highest correlation with each dimension.
+    /// Adjective pairs of the two axes, the pole at 0 first. `None` selects rough-smooth and hard-soft if both are
+    /// usable: rated, not excluded by relevance votes, and with a direction in the perceptual space. Otherwise `None`
+    /// selects, for each of the first two dimensions of the perceptual space, the usable pair whose ratings have the
+    /// highest absolute correlation with it.
     pub axes: Option<[AdjectivePair; 2]>,
     /// Whether the second axis is made orthogonal to the first.
     pub is_orthogonal: bool,
-    /// Kind of features.
+    /// Kind of features of the vibrations.
     pub features: FeatureKind,
-    /// Options of the cepstral coefficients of a pattern.
+    /// Options of the mel-frequency cepstral coefficients (MFCC). They describe a pattern: a stroke rendered at
+    /// constant speed and force ([`crate::texture::patterns`]).
     pub mfcc: MfccOptions,
     /// Method that predicts an axis from features.
     pub method: Method,
-    /// Kind of positions; `None` selects, for each axis, the kind that is probably closer to human perception
-    /// ([`TRUSTED_NESTED_R`]).
+    /// Kind of positions. `None` selects, for each axis, predicted positions if the nested correlation reaches
+    /// [`TRUSTED_NESTED_R`], else perceived positions.
     pub placement: Option<PlacedBy>,
-    /// Number of permutations for the null distribution.
+    /// Number of permutations for the null distribution of the nested correlation; 0 omits the permutation test.
     pub n_permutations: usize,
-    /// Number of bootstrap samples of the participants, for the stability of the positions.
+    /// Number of bootstrap samples of the participants, for the stability of the perceived positions; 0 omits the
+    /// bootstrap.
     pub n_draws: usize,
     /// Seed of scaling, noise, folds, permutations and bootstrap.
     pub seed: u64,
@@ -90,11 +96,12 @@ pub struct SpaceOptions {
 /// Kind of features that describe the vibrations of a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FeatureKind {
-    /// Mean of every cepstral coefficient over each pattern.
+    /// For each pattern, the mean of every mel-frequency cepstral coefficient over its frames.
     Mfcc,
-    /// Every cepstral coefficient of every frame, as published in the paper.
+    /// For each pattern, every coefficient of every frame, as in the paper (see the module documentation).
     MfccFrames,
-    /// Physical features: level, exponents, centroid, friction and tap transient.
+    /// Physical features ([`crate::space::features::Physical`]): level, exponents of the level over speed and force,
+    /// spectral centroid, friction coefficient, and tap transient.
     Physical,
     /// [`FeatureKind::Mfcc`] and [`FeatureKind::Physical`].
     MfccAndPhysical,
@@ -103,9 +110,9 @@ pub enum FeatureKind {
 /// Kind of position of a texture on an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlacedBy {
-    /// Perceived position, from the judgments.
+    /// Perceived position, computed from the judgments.
     Felt,
-    /// Position predicted from features, as in the paper, whose axes are features.
+    /// Position predicted from features. The paper uses these positions: its axes are computed from features.
     Predicted,
 }
 
@@ -130,31 +137,31 @@ pub struct SpaceBuild {
     pub shepard: Vec<ShepardPair>,
     /// All rated adjective pairs, in the order of the ratings.
     pub adjectives: Vec<Adjective>,
-    /// Raters and the agreement of each with the others.
+    /// Raters, and the agreement of each rater with the others.
     pub raters: Vec<(String, RaterFit)>,
     /// Number of missing ratings among all possible ones.
     pub n_missing_ratings: usize,
     /// The two axes.
     pub axes: [Axis; 2],
-    /// Angle between the lines of the two pairs in the perceptual space, in degrees, before any orthogonalization.
+    /// Angle between the directions of the two pairs in the perceptual space, in degrees, before any orthogonalization.
     pub angle_degrees: f64,
-    /// Feature table, of which the axis models use some columns.
+    /// Feature table. Each axis model uses some of its columns.
     pub features: FeatureTable,
-    /// Bootstrap stability of the perceived positions. `None` without bootstrap samples, with fewer than [`MIN_DRAWN`]
-    /// sorters or raters, or if almost no sample yields a space; a finding gives the reason.
+    /// Bootstrap stability of the perceived positions. `None` if [`SpaceOptions::n_draws`] is 0. Also `None`, with the
+    /// reason among the findings, with fewer than [`MIN_DRAWN`] sorters or raters, or if fewer than two bootstrap
+    /// samples yield a space.
     pub stability: Option<Stability>,
     /// Position of each texture.
     pub positions: Vec<SpacePoint>,
     /// The positions with their triangulation.
     pub space: Space,
-    /// Irregularities, as sentences.
+    /// Warnings about irregular data and results, as sentences.
     pub findings: Vec<String>,
 }
 
 impl SpaceOptions {
-    /// Default options: two dimensions, mean coefficients with the recommended MFCC options, and the practical
-    /// prediction method. The kind of positions is automatic; there are a thousand permutations and a hundred bootstrap
-    /// samples.
+    /// Default options: two dimensions, [`FeatureKind::Mfcc`] with the recommended MFCC options, [`Method::Practical`],
+    /// an automatic kind of positions, a thousand permutations and a hundred bootstrap samples.
     pub fn usual(seed: u64) -> Self {
         Self {
             n_dims: 2,
@@ -172,11 +179,11 @@ impl SpaceOptions {
     }
 }
 
-/// Builds a space. `on_step` is called at every step and repeatedly within long ones, from several threads; returning
-/// `false` stops the build. The result does not depend on the number of threads.
+/// Builds a space. `on_step` is called at the start of every step and repeatedly within long steps, from several
+/// threads. If it returns `false`, the build stops. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// See [`SpaceBuildError`]. Irregularities that do not prevent a result are reported in [`SpaceBuild::findings`].
+/// See [`SpaceBuildError`]. Irregularities that do not prevent a result are listed in [`SpaceBuild::findings`].
 pub fn build_space(
     data: &SpaceData<'_>,
     options: &SpaceOptions,
@@ -218,8 +225,8 @@ pub fn build_space(
         similarity: &similarity,
         perceptual: &perceptual,
     };
-    // Only stress is reported of more dimensions, so they are scaled beside all that follows. Scaling needs more
-    // textures than dimensions.
+    // Of solutions with more dimensions, only the stress is reported, and nothing else depends on it. They are
+    // therefore computed in parallel with all other steps. Scaling needs more textures than dimensions.
     let most_dims = MAX_DIMS.min(textures.len().saturating_sub(2)).max(options.n_dims);
     let more_dims = options.n_dims + 1..=most_dims;
     let (more, rest) = rayon::join(
@@ -251,7 +258,7 @@ pub fn build_space(
     })
 }
 
-/// Judgments and the perceptual space, from which everything else follows.
+/// Judgments and the perceptual space: the input of all later steps.
 struct Judged<'a> {
     data: &'a SpaceData<'a>,
     table: &'a RatingTable,

@@ -2,7 +2,7 @@
 //!
 //! A route connects stops (waypoints) in the space by straight lines. For playback it becomes a path: a sequence of
 //! keys (keyframe textures). Neighboring keys are so close that mixing two of them under one excitation is as good as
-//! interpolating a texture. Playback therefore does not need the space.
+//! interpolating a texture. Playback therefore needs only the keys, not the space.
 
 mod drawn;
 mod render;
@@ -21,7 +21,8 @@ pub use crate::space::texture_path::traveler::{PathProgress, PrecomputedProgress
 /// Maximum distance of neighboring keys in the space, in points of the axes. Routes that would need more than
 /// [`MAX_KEYS`] keys use a larger distance.
 const KEY_STEP: f64 = 4.0;
-/// Maximum number of keys of a path, computed or read from a file: an output holds this many textures.
+/// Maximum number of keys of a path, computed or read from a file: an output must hold the textures of all keys at
+/// once.
 pub const MAX_KEYS: usize = 48;
 
 /// Keyframe of a path: a texture at a place of the stroke.
@@ -58,7 +59,7 @@ impl TexturePath {
         Ok(Self { along, at_end, keys })
     }
 
-    /// Path of a route: a key at every stop, and keys every few points of the axes between them.
+    /// Path of a route: a key at every stop, and between two stops a key every few points of the axes.
     ///
     /// # Errors
     /// See [`TexturePathError`].

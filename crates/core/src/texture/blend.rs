@@ -6,8 +6,9 @@ use crate::units::{Contact, Hertz};
 /// Interpolation mode: how parent textures are combined into one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Mode {
-    /// As in the paper: inverse-distance weights of the corners of the Delaunay triangle, and a sum of independent
-    /// signals. The result jumps where the point crosses a triangle edge, and its level drops between textures.
+    /// As in the authoring paper ([`crate::space`]): inverse-distance weights of the corners of the Delaunay triangle,
+    /// and a sum of independent signals. The result jumps where the point crosses a triangle edge, and its level drops
+    /// between textures.
     Paper,
     /// Barycentric weights and independent signals; a gain restores the weighted mean of the levels.
     Power,
@@ -48,8 +49,9 @@ impl Mode {
 
 /// One-sided power spectral density in (m/s²)²/Hz of a mixture of planes at one contact, in closed form.
 ///
-/// `Paper`: `Σ w² S`. `Power`: the same times `(Σ w σ)² / Σ w² σ²`. `Shared`, `Parametric` and `Field`: `|Σ w H|²` of
-/// the parents' filters including their gains. All parents must have the same rate.
+/// The parents have weights `w`, densities `S`, levels `σ` and filters `H` (including gains). `Paper`: `Σ w² S`.
+/// `Power`: the same times `(Σ w σ)² / Σ w² σ²`. `Shared`, `Parametric` and `Field`: `|Σ w H|²`. All parents must have
+/// the same rate.
 pub fn mixture_psd(
     parents: &[(&Plane, f64)],
     mode: Mode,

@@ -15,7 +15,7 @@ pub const MAX_RADIAL_NODES: usize = 500;
 /// Valid model rates, in Hz.
 pub const RATES_HZ: RangeInclusive<f64> = 200.0..=4000.0;
 
-/// Valid node speeds, in m/s; all of them are accurate numbers in the renderer's `f32`.
+/// Valid node speeds, in m/s, which the renderer's `f32` represents with full relative precision.
 pub const SPEEDS_MPS: RangeInclusive<f64> = 1e-6..=100.0;
 
 /// Valid node forces, in N.
@@ -34,10 +34,10 @@ pub const GAINS: RangeInclusive<f64> = 0.0..=1e6;
 /// spacing of `f32` near π, so that the frequencies remain distinct in the renderer.
 pub const MIN_LSF_GAP: f64 = 1e-5;
 
-/// Minimum distance in radians between line spectral frequencies of a published texture: half of the sixth decimal,
-/// which is the published precision. It is still twice the spacing of `f32` near π.
+/// Minimum distance in radians between line spectral frequencies of a published texture: half a unit of the sixth
+/// decimal, to which they are published. It is still twice the spacing of `f32` near π.
 pub const MIN_PUBLISHED_LSF_GAP: f64 = 5e-7;
 
 /// Minimum distance between nodes, and of a node from zero speed and force, relative to the highest speed and force.
-/// Closer nodes give flatter triangles, and point location in `f32` must still work in them.
+/// Closer nodes would give triangles too flat for point location in `f32`.
 pub const MIN_NODE_DISTANCE: f64 = 1e-4;

@@ -12,7 +12,7 @@ use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
 pub use crate::texture::model::error::TextureModelError;
 
-/// Grain node: the stochastic vibration at one speed and force, as an autoregressive process.
+/// Grain node: the stochastic vibration at one speed and force, as an autoregressive (AR) process.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GrainNode {
     /// Tip speed of the measurement.
@@ -87,12 +87,30 @@ pub struct TextureModel {
 }
 
 impl TextureModel {
-    /// Creates a texture from measured nodes, with barycentric interpolation. The silent and saturated boundaries are
-    /// added for rendering, not here.
+    /// Creates a texture from measured nodes, with barycentric interpolation. The boundary nodes
+    /// ([`crate::texture::boundary`]) are added for rendering, not here.
     ///
     /// # Errors
     /// See [`TextureModelError`].
     pub fn new(rate: Hertz, nodes: Vec<GrainNode>, friction: Option<f64>) -> Result<Self, TextureModelError> {
+        let made = Self::blended(rate, nodes, friction)?;
+        if let Grain::Measured { nodes, .. } = &made.grain {
+            check::stable(nodes)?;
+        }
+        Ok(made)
+    }
+
+    /// As [`TextureModel::new`], for a blend of textures, which is made at each movement of a point. Its filters are not
+    /// judged again: means of line spectral frequencies are no closer together than those of one of the textures, and
+    /// fits to mean spectra are smooth. A filter that grows all the same ends in the limiter.
+    ///
+    /// # Errors
+    /// See [`TextureModelError`].
+    pub(crate) fn blended(
+        rate: Hertz,
+        nodes: Vec<GrainNode>,
+        friction: Option<f64>,
+    ) -> Result<Self, TextureModelError> {
         check::frame(rate, nodes.len(), friction)?;
         check::measured(&nodes)?;
         let grain = Grain::Measured { nodes, interpolation: Interpolation::Barycentric };

@@ -1,4 +1,7 @@
-//! Patterns: rendered signals by which textures are compared, at the same set of speeds and forces for each texture.
+//! Patterns: strokes at constant speed and force, rendered at the same set of speeds and forces for every texture, so
+//! that textures can be compared.
+//!
+//! The authoring paper is cited in [`crate::space::space_build`].
 
 use std::fmt;
 
@@ -25,8 +28,8 @@ pub const PAPER_SECS: f64 = 1.0;
 /// Sample rate of the authoring paper's patterns.
 pub const PAPER_RATE: Hertz = Hertz(1000.0);
 
-/// Number of samples at each end of a pattern that downsampling corrupts, at the lower rate; the kernel of [`resample`]
-/// extends over 51 of them.
+/// Number of samples at each end of a downsampled pattern that are discarded, at the lower rate. Downsampling corrupts
+/// 51 of them, the half-width of the kernel of [`resample`].
 const N_SPOILT: usize = 64;
 
 /// Settings for rendering patterns.
@@ -66,15 +69,16 @@ pub enum PatternWarning {
         /// Highest force of the texture.
         force_max: Newtons,
     },
-    /// The model rate is higher than the rate of the patterns; its content above their Nyquist frequency is lost.
+    /// The model rate is higher than the rate of the patterns; content above the Nyquist frequency of the patterns is
+    /// lost.
     HigherRate {
         /// Model rate.
         own: Hertz,
         /// Sample rate of the patterns.
         rate: Hertz,
     },
-    /// The model rate is lower than the rate of the patterns; above the model's Nyquist frequency they have almost no
-    /// content.
+    /// The model rate is lower than the rate of the patterns; above the model's Nyquist frequency, the patterns have
+    /// almost no content.
     LowerRate {
         /// Model rate.
         own: Hertz,
@@ -102,12 +106,12 @@ impl fmt::Display for PatternWarning {
             ),
             Self::HigherRate { own, rate } => write!(
                 f,
-                "the model rate is {own}; its content above {} is lost in patterns at {rate}",
+                "the model rate is {own}; content above {} is lost in patterns at {rate}",
                 Hertz(0.5 * rate.0)
             ),
             Self::LowerRate { own, rate } => write!(
                 f,
-                "the model rate is {own}; it has no content above {}, where patterns at {rate} are compared too",
+                "the model rate is {own}; the texture has no content above {}, but patterns at {rate} extend beyond it",
                 Hertz(0.5 * own.0)
             ),
             Self::Silent { n, n_patterns } => write!(f, "{n} of {n_patterns} patterns are silent"),
@@ -181,10 +185,11 @@ pub fn pattern_name(contact: Contact) -> String {
     format!("{} mm/s, {} N", rounded(contact.speed.mm_per_s()), rounded(contact.force.0))
 }
 
-/// Renders the patterns of a texture. The noise of each depends only on the seed and its speed and force.
+/// Renders the patterns of a texture. The noise of a pattern depends only on the seed of the plan and on the speed and
+/// force of the pattern.
 ///
-/// A model with a higher rate is rendered at its own rate and downsampled. One with a lower rate is converted by
-/// [`at_rate`]. Speeds and forces beyond the texture's range are clamped.
+/// A model with a higher rate than the patterns is rendered at its own rate and downsampled. A model with a lower rate
+/// is converted by [`at_rate`]. Speeds and forces beyond the texture's range are clamped.
 ///
 /// # Errors
 /// See [`PatternError`].

@@ -23,11 +23,12 @@ use crate::units::{Contact, Hertz};
 ///
 /// Measured nodes are interpolated in one of two ways.
 /// - Barycentric, in the Delaunay triangles over speed and force, each divided by its maximum. Silent nodes at zero
-///   speed or force and copies along the edges of full speed and force close the range.
-/// - By radial basis functions, constant beyond the measured range. Below the lowest speed or force the level decreases
-///   linearly to silence.
+///   speed or force, and copies of measured nodes along the edges of highest speed and force, close the range
+///   ([`crate::texture::boundary`]).
+/// - By radial basis functions, constant beyond the measured range. Below the lowest measured speed or force, the level
+///   decreases linearly to zero at zero speed or force.
 ///
-/// Published nodes include their boundary.
+/// Published nodes already include the boundary, and are interpolated in triangles.
 #[derive(Clone, Debug)]
 pub struct Plane {
     rate: Hertz,
@@ -39,7 +40,7 @@ pub struct Plane {
     triangulation: Triangulation,
     /// Radial basis, if used; the triangles then approximate it.
     radial: Option<RadialGrain>,
-    /// Position-dependent relief, independent of the contact.
+    /// Relief, which depends on the tip position instead of speed and force.
     relief: Option<Arc<Relief>>,
 }
 
@@ -54,7 +55,7 @@ pub struct Grain {
     pub ma_lsf: Vec<f64>,
     /// Root mean square acceleration in m/s².
     pub level_mps2: f64,
-    /// Standard deviation of the white noise that gives the level, in m/s²; includes a published gain.
+    /// Standard deviation of the white noise that gives this level, in m/s²; it includes the gain of a published node.
     pub sigma_mps2: f64,
 }
 
@@ -93,8 +94,9 @@ impl Plane {
     pub fn new(texture: &TextureModel) -> Self {
         let highest = Contact { speed: texture.speed_max(), force: texture.force_max() };
         let (speed_max_mps, force_max_n) = (highest.speed.0, highest.force.0);
-        // A node off an edge by a rounding error would make an equally thin triangle. Measured nodes may lie as close
-        // to zero.
+        // A node that is off an edge by a rounding error would form a triangle as thin as that error, so it is moved
+        // onto the edge. At zero this applies to published nodes only, because measured nodes may validly lie that
+        // close to zero.
         let is_published = matches!(texture.grain(), texture::Grain::Published { .. });
         let snapped = |share: f64| match share {
             _ if share > 1.0 - MIN_NODE_DISTANCE => 1.0,
@@ -140,8 +142,8 @@ impl Plane {
         }
     }
 
-    /// Grain at `contact`. Outside the measured range it is that of the nearest edge; at zero speed or force it is
-    /// silent.
+    /// Grain at `contact`. Above the highest speed or force, it is the grain at that speed or force; at zero speed or
+    /// force, it is silent.
     pub fn at(&self, contact: Contact) -> Grain {
         let share = |x: f64, max: f64| if x > 0.0 { (x / max).min(1.0) } else { 0.0 };
         let at = [share(contact.speed.0, self.speed_max_mps), share(contact.force.0, self.force_max_n)];

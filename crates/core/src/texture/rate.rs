@@ -1,8 +1,8 @@
 //! Conversion of a texture model to a higher rate, so that textures with different rates can be mixed.
 //!
-//! The spectrum up to the old Nyquist frequency is kept, and the density above it falls steeply. The autocorrelation of
-//! this spectrum, its Fourier transform (Wiener-Khinchin theorem), gives the predictor by the Levinson-Durbin
-//! recursion.
+//! The spectrum up to the old Nyquist frequency is kept, and the density above it falls steeply. The Fourier transform
+//! of this spectrum is its autocorrelation (Wiener-Khinchin theorem), from which the Levinson-Durbin recursion computes
+//! the predictor.
 
 use std::f64::consts::PI;
 
@@ -47,7 +47,7 @@ pub struct AtRate {
 pub enum AtRateError {
     /// The requested rate is below the model rate.
     #[error(
-        "a model at {own_hz} Hz cannot be converted to {rate_hz} Hz, because its content above half of that would be lost; use a rate of at least {own_hz} Hz"
+        "a model at {own_hz} Hz cannot be converted to {rate_hz} Hz, because its content above half of the new rate would be lost; use a rate of at least {own_hz} Hz"
     )]
     Lower {
         /// Model rate, in Hz.
@@ -57,7 +57,7 @@ pub enum AtRateError {
     },
     /// A node has no stable predictor at the new rate.
     #[error(
-        "the spectrum of node {index} cannot be converted to {rate_hz} Hz, because its peaks are too sharp; use a lower rate or smooth them"
+        "the spectrum of node {index} cannot be converted to {rate_hz} Hz, because its peaks are too sharp; use a lower rate, or smooth the peaks"
     )]
     Spectrum {
         /// Index of the node.
@@ -143,7 +143,7 @@ struct Converter {
     below: Vec<Hertz>,
     /// Progress of the transition at each point above the old Nyquist frequency, 0 to 1.
     fall: Vec<f64>,
-    /// `cos(π m / 2N)` for a full period of `4 N`.
+    /// `cos(π m / 2N)` for `m` from 0 over a full period of `4N` values, where `N` is [`N_POINTS`].
     cosines: Vec<f64>,
     compared: Vec<Hertz>,
 }

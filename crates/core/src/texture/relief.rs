@@ -24,13 +24,14 @@ pub const MAX_VALUES: usize = 1 << 16;
 pub const STEPS_M: RangeInclusive<f64> = 1e-7..=1e-2;
 /// Largest magnitude of acceleration in a relief, in m/s².
 pub const MAX_MPS2: f64 = 1e6;
-/// Sample rate in Hz to which faster recordings are downsampled: content above half of it is imperceptible, and would
-/// quickly exceed the size of a relief.
+/// Sample rate to which faster recordings are downsampled. Content above half of this rate cannot be felt, and at a
+/// higher rate a short recording would already exceed [`MAX_VALUES`].
 const HIGHEST_RATE: Hertz = Hertz(4000.0);
 /// Parents whose weight has a smaller magnitude do not contribute to a blend.
 const LEAST_WEIGHT: f64 = 1e-3;
 
-/// Acceleration profile in m/s², and the force at which it has this level; the acceleration is proportional to force.
+/// Acceleration profile in m/s², and the normal force to which it applies; at other forces, the acceleration is
+/// proportional to force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Relief {
     profile: Profile,
@@ -80,7 +81,7 @@ pub enum ReliefError {
 
 /// Profile of an acceleration recording in m/s², stroked at a constant speed.
 ///
-/// Recordings with a high sample rate are downsampled, which removes imperceptible frequencies.
+/// Recordings with a high sample rate are downsampled, which removes only frequencies that cannot be felt.
 ///
 /// # Errors
 /// See [`ProfileError`].
@@ -99,7 +100,7 @@ pub fn felt_profile(
 }
 
 impl Relief {
-    /// Creates a relief from a profile in m/s² and the force at which it has this level.
+    /// Creates a relief from an acceleration profile in m/s² and the normal force to which it applies.
     ///
     /// # Errors
     /// See [`ReliefError`].
@@ -166,7 +167,8 @@ impl Relief {
         a + (place - whole) * (b - a)
     }
 
-    /// Weighted sum of reliefs, with the smallest step and the largest length among them, up to [`MAX_VALUES`].
+    /// Weighted sum of reliefs, with the smallest step and the largest length among them, and at most [`MAX_VALUES`]
+    /// values.
     ///
     /// Features keep their position within this length, and the sum is mirrored beyond it. Parents without a relief
     /// reduce the level by their weight. `None` if no parent has a relief.

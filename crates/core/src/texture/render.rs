@@ -111,15 +111,15 @@ struct Output {
     seed: u64,
 }
 
-/// Stroke: tip speed, normal force and position over time.
+/// A stroke: tip speed, normal force and tip position over time.
 pub trait Hand {
-    /// Speed and force at a time in s. Rendering calls it with increasing times; a path calls it for one pass
-    /// beforehand.
+    /// Speed and force at a time in s. Rendering calls this method with increasing times. Rendering a path first calls
+    /// it for one pass over all times, and then starts again.
     fn contact_at(&mut self, time_secs: f64) -> Contact;
 
     /// Tip position along reliefs at any time, in m. An implementation that returns `None` must always return `None`.
-    /// The position then starts at zero and increases with the speed, because a stroke without positions does not
-    /// reverse.
+    /// The position then starts at zero and increases by the distance that the tip travels, because a stroke without
+    /// positions does not reverse.
     fn place_m_at(&mut self, _time_secs: f64) -> Option<f64> {
         None
     }
@@ -132,7 +132,7 @@ impl<F: FnMut(f64) -> Contact> Hand for F {
     }
 }
 
-/// Time step in s for the stroke's velocity at its first position.
+/// Time step in s for estimating the velocity at the start of the stroke.
 const APPROACH_SECS: f64 = 0.005;
 
 /// Stroke delayed by the warm-up: it holds its first contact until the first sample is kept.

@@ -10,8 +10,8 @@ use crate::units::Hertz;
 /// about 1 kHz, a transient is only heard.
 pub const TAP_FREQUENCIES_HZ: RangeInclusive<f64> = 1.0..=20_000.0;
 
-/// Valid decay rates of a tap transient, in 1/s. The renderer lets none decay more slowly than
-/// [`SLOWEST_DECAY_PER_SEC`], which would drive the actuator for seconds.
+/// Valid decay rates of a tap transient, in 1/s. The renderer uses at least [`SLOWEST_DECAY_PER_SEC`], because a slower
+/// decay would drive the actuator for seconds.
 pub const TAP_DECAYS_PER_SEC: RangeInclusive<f64> = 0.5..=1e5;
 
 /// Valid amplitudes of a tap transient, in m/s².
@@ -20,7 +20,7 @@ pub const TAP_AMPLITUDES_MPS2: RangeInclusive<f64> = 0.0..=MAX_AMPLITUDE_MPS2;
 /// Highest energy `A²/4B` of a tap transient, in (m/s²)²·s. A hard surface has less than 100.
 pub const MAX_TAP_ENERGY: f64 = 1000.0;
 
-/// Why numbers are not a tap transient.
+/// Reasons why numbers are not a valid tap transient.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TapError {
@@ -61,7 +61,7 @@ pub struct Tap {
 }
 
 impl Tap {
-    /// Returns the transient if it is one that a tap on a real surface could cause.
+    /// Returns the transient if its values and its energy are within the valid ranges.
     ///
     /// # Errors
     /// See [`TapError`].
@@ -79,7 +79,8 @@ impl Tap {
         if energy > MAX_TAP_ENERGY { Err(TapError::Energy { energy }) } else { Ok(self) }
     }
 
-    /// Returns the transient with every value moved into its valid range, the amplitude last.
+    /// Returns the transient with every value clamped to its valid range. If the energy is then still too high, the
+    /// amplitude is reduced.
     #[must_use]
     pub fn bounded(self) -> Self {
         let within = |value: f64, range: &RangeInclusive<f64>| value.clamp(*range.start(), *range.end());
@@ -96,8 +97,8 @@ impl Tap {
         }
     }
 
-    /// Approximate energy `A²/4B` in (m/s²)²·s as it is rendered: the integral of the squared acceleration over many
-    /// periods.
+    /// Approximate energy `A²/4B` of the rendered transient in (m/s²)²·s: the integral of the squared acceleration, if
+    /// the decay takes many periods.
     pub fn energy(&self) -> f64 {
         self.amplitude_mps2.powi(2) / (4.0 * self.decay_per_sec.max(SLOWEST_DECAY_PER_SEC))
     }

@@ -127,7 +127,7 @@ impl Handle {
         self.config
     }
 
-    /// Sends a texture to the engine. It plays once a mix contains it.
+    /// Sends a texture to the engine and returns its id. The texture plays once a mix contains this id.
     ///
     /// # Errors
     /// [`LoadError`] gives the reason and returns the texture.
@@ -228,13 +228,13 @@ impl Handle {
         self.publish();
     }
 
-    /// Fades to another input, which starts now.
+    /// Fades to another input. It starts now, unless only parameters of the current stroke change ([`Input`]).
     pub fn set_input(&mut self, input: Input) {
         self.orders.controls.input = input;
         self.publish();
     }
 
-    /// Sets when live input takes over automatically; with `None` it never does.
+    /// Sets when live input takes over automatically; `None` turns automatic takeover off.
     pub fn set_takeover(&mut self, takeover: Option<Takeover>) {
         self.orders.controls.takeover = takeover;
         self.publish();
@@ -258,7 +258,8 @@ impl Handle {
     }
 
     /// Plays a signal instead of the texture, after the texture or the current signal has faded out. Muting and the
-    /// actuator's limits apply to it; the gain does not.
+    /// actuator's limits apply to every signal. The gain applies to acceleration signals, but not to drive signals
+    /// ([`Driven`](shagreen_synth::drive::Driven)).
     ///
     /// # Errors
     /// Returns the signal if the command queue is full. Try again after the next block.
@@ -270,7 +271,7 @@ impl Handle {
         Ok(())
     }
 
-    /// Fades out the current signal and cancels queued ones. Signals that are sent later are played.
+    /// Fades out the current signal and cancels queued ones. Signals that are sent later are not affected.
     pub fn stop_signal(&mut self) {
         self.orders.n_stops = self.orders.n_stops.wrapping_add(1);
         self.publish();
@@ -303,8 +304,9 @@ impl Handle {
         self.monitor.as_mut()?.loss()
     }
 
-    /// Takes the oldest queued samples of the signal, in m/s² at the device's rate, before gain and limiter. Returns
-    /// their number. If the queue is full, the newest samples are dropped: read the whole queue and display its end.
+    /// Takes the oldest queued samples of the acceleration, in m/s² at the device's rate, before gain, equalizer and
+    /// limiters. Drive signals ([`Driven`](shagreen_synth::drive::Driven)) are not included. Returns the number of
+    /// samples. If the queue is full, the newest samples are dropped: read the whole queue and display its end.
     pub fn read_scope(&mut self, out: &mut [f32]) -> usize {
         self.scope.pop_partial_slice(out).0.len()
     }

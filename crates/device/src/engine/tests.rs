@@ -3,6 +3,8 @@
 mod lift_off;
 mod relief;
 mod signals;
+#[cfg(target_os = "linux")]
+mod soak;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

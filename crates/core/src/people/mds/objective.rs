@@ -130,11 +130,6 @@ impl<'a> Objective<'a> {
         let mut from = 0;
         for pool in self.pools.as_slice() {
             let to = from + pool.weight as usize;
-            if to == from + 1 {
-                // The disparity is the distance.
-                from = to;
-                continue;
-            }
             let disparity = pool.sum / pool.weight;
             let together =
                 self.distances[from..to].chunks(N_TOGETHER).zip(self.pairs[from..to].chunks(N_TOGETHER));

@@ -103,7 +103,7 @@ impl Models {
         Ok(Self { sampling, sites, field })
     }
 
-    /// Texture of the field at a point, moved by the given weight towards a pinned texture; without a relief.
+    /// Texture of the field at a point, moved towards a pinned texture by the weight in `lock`; without a relief.
     pub(super) fn texture(
         &self,
         at: SpacePoint,

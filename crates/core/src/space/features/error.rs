@@ -56,7 +56,7 @@ pub enum FeatureWarning {
         /// How they differ.
         warning: PatternWarning,
     },
-    /// Some mel filters contain no bin of the transform, so their outputs are constant.
+    /// Some mel filters contain no bin of the Fourier transform, so their outputs are constant.
     EmptyFilters {
         /// Number of empty filters.
         n: usize,
@@ -77,7 +77,10 @@ impl fmt::Display for FeatureWarning {
         match self {
             Self::Pattern { texture, warning } => write!(f, "{texture}: {warning}"),
             Self::EmptyFilters { n, n_filters } => {
-                write!(f, "{n} of {n_filters} mel filters are empty; use a longer transform or fewer filters")
+                write!(
+                    f,
+                    "{n} of {n_filters} mel filters contain no bin of the Fourier transform; use a longer transform or fewer filters"
+                )
             }
             Self::Absent { feature, textures } => {
                 write!(f, "feature left out: {feature} is unknown for {}", listed(textures))

@@ -40,8 +40,8 @@ pub struct Physical {
 
 /// Physical features of a texture over stroke patterns.
 ///
-/// A pattern above the highest measured speed or force is evaluated at that limit, and the exponents ignore it. Patterns
-/// in which the texture is silent are ignored.
+/// A pattern above the highest measured speed or force of the texture is evaluated at that limit, but does not enter
+/// the exponents. Patterns in which the texture is silent are ignored.
 pub fn physical(model: &TextureModel, contacts: &[Contact]) -> Physical {
     let plane = Plane::new(model);
     let within: Vec<Contact> = contacts.iter().copied().filter(|c| is_within(model, *c)).collect();

@@ -1,7 +1,7 @@
 //! Reduction of several features to one: the first principal component of z-scores, and a cubic polynomial of it.
 //!
 //! The component does not depend on the target. If most variance of the kept features is unrelated to the target, the
-//! component misses the related part. That is how the published chain works, and one reason for the practical method.
+//! component misses the related part. This weakness of the published chain is one reason for the practical method.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 

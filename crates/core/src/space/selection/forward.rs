@@ -37,8 +37,8 @@ pub enum Order {
 pub struct Forward {
     /// Indices of the selected features, in order of selection.
     pub features: Vec<usize>,
-    /// p-values of all candidates: those of the selected features, then that of the candidate that ended the selection,
-    /// if any.
+    /// p-values of all candidates: those of the selected features, then that of the rejected candidate that ended the
+    /// selection, if any.
     pub p_values: Vec<f64>,
 }
 

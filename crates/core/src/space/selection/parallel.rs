@@ -2,8 +2,8 @@
 //!
 //! Every group of three selected features predicts the target linearly. A group wins if its multiple correlation
 //! exceeds the threshold for random features. Features are kept if they appear in at least half as many winning groups
-//! as the most frequent feature. The threshold is the 95th percentile, over 200 random draws, of the best group of a
-//! draw. The published version uses a single draw, which makes the threshold itself random.
+//! as the most frequent feature. The threshold is the 95th percentile, over 200 random draws, of the highest multiple
+//! correlation of a group in a draw. The published version uses a single draw, which makes the threshold itself random.
 //!
 //! Random normal features have no preferred direction, so the threshold depends only on the numbers of textures and
 //! features, not on the target. It is computed once for each pair of numbers.

@@ -21,8 +21,8 @@ pub struct Scheme {
     pub seed: u64,
 }
 
-/// Five folds as published, with 1,000 permutations. The assignment to folds is repeated four times, because a single
-/// one among 25 textures changes the correlation by about 0.1.
+/// Five folds as published, with 1,000 permutations. The assignment to folds is repeated four times, because the
+/// correlation for 25 textures varies by about 0.1 from one assignment to another.
 pub const STANDARD: Scheme = Scheme { n_folds: 5, n_repeats: 4, n_permutations: 1000, seed: 1 };
 
 /// Validation result of an axis model.
@@ -30,23 +30,23 @@ pub const STANDARD: Scheme = Scheme { n_folds: 5, n_repeats: 4, n_permutations: 
 pub struct Validation {
     /// Scheme of the validation.
     pub scheme: Scheme,
-    /// Correlation of predictions with positions when features are selected on all textures: the published figure,
-    /// strongly biased upwards. 0 if nothing was selected.
+    /// Plain (Pearson) correlation of predictions with positions in cross-validation, if features are selected on all
+    /// textures: the figure that is usually published, strongly biased upwards. 0 if no feature was selected.
     pub cv_r: f64,
-    /// Range-normalized accuracy of those predictions, `100 (1 - RMSE / range)`, in percent.
+    /// Range-normalized accuracy of the predictions of [`Validation::cv_r`], `100 (1 - RMSE / range)`, in percent.
     pub cv_rms_percent: f64,
-    /// Correlation in nested cross-validation, where features are selected inside each fold. Both sides are relative to
-    /// the mean of the training textures (see [`crate::space::selection`]). 0 if the model only ever predicted that
-    /// mean.
+    /// Nested correlation: correlation of predictions with positions in nested cross-validation, where features are
+    /// selected inside each fold. Both are relative to the mean of the training textures (see
+    /// [`crate::space::selection`]). 0 if all predictions equal that mean.
     pub nested_cv_r: f64,
-    /// Plain correlation of the nested predictions with positions: same definition as [`Validation::cv_r`], for
-    /// comparison with it. It is negative by construction if nothing is found (see [`crate::space::selection`]). 0 as
-    /// above.
+    /// Plain correlation of the predictions in nested cross-validation with positions: same definition as
+    /// [`Validation::cv_r`], for comparison with it. It is biased downwards if the predictions are close to the mean of
+    /// the training textures (see [`crate::space::selection`]). 0 if all predictions equal that mean.
     pub nested_cv_plain_r: f64,
     /// Range-normalized accuracy of the nested predictions, in percent.
     pub nested_cv_rms_percent: f64,
-    /// Range-normalized accuracy of predicting the mean of the training textures, in percent: the baseline that any
-    /// model has to exceed.
+    /// Range-normalized accuracy if the mean of the training textures is always predicted, in percent: the baseline
+    /// that any model has to exceed.
     pub mean_rms_percent: f64,
     /// Permutation p-value of the nested correlation: `(1 + count) / (1 + permutations)`, where `count` is the number
     /// of permutations with a correlation at least as high. `None` without permutations.
@@ -117,8 +117,8 @@ pub fn validate(
     let null: Vec<f64> = products[1..].iter().map(FromMeans::r).collect();
     let as_high = null.iter().filter(|r| **r >= observed).count();
     let chosen = chosen_on_all(features, target, method, &folds);
-    // Predictions that equal the means of the training textures do not count, whatever their correlation (see the
-    // module doc).
+    // Predictions that equal the means of the training textures get a correlation of 0 (see the documentation of
+    // `selection`).
     let plain_r = |left_out: &LeftOut| {
         let found = left_out.predictions != flat.predictions;
         if found { correlation(&left_out.targets, &left_out.predictions).unwrap_or(0.0) } else { 0.0 }

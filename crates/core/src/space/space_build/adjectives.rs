@@ -13,15 +13,17 @@ use crate::words::counted;
 pub struct Adjective {
     /// The adjective pair.
     pub pair: AdjectivePair,
-    /// Fraction of the votes that find it relevant, 0..1; the lower one of its two poles. `None` without votes.
+    /// Fraction of the votes that find the pair relevant, 0..1. People vote on a pole or on the whole pair; this is the
+    /// lowest fraction among these names. `None` if nobody voted on any of them.
     pub relevance: Option<f64>,
-    /// Whether the pair is used: there are no votes, or at least half of them find it relevant.
+    /// Whether the pair is used: there are no votes on it, or the fraction is at least
+    /// [`RELEVANCE_LIMIT`](crate::people::ratings::RELEVANCE_LIMIT).
     pub is_relevant: bool,
-    /// Mean rating of each texture.
+    /// Mean rating of each texture of the space.
     pub ratings: Vec<Average>,
     /// Agreement of the raters.
     pub agreement: Result<Agreement, AgreementError>,
-    /// Line in the perceptual space.
+    /// Fitted line in the perceptual space, which has the direction of the pair.
     pub line: Result<PropertyLine, PropertyError>,
 }
 
@@ -31,7 +33,7 @@ impl Adjective {
         self.ratings.iter().enumerate().filter_map(|(texture, average)| Some((texture, average.mean?)))
     }
 
-    /// The line, if the pair is relevant and has one.
+    /// The line, if the pair is relevant and the fit has succeeded.
     pub(super) fn usable_line(&self) -> Option<&PropertyLine> {
         self.line.as_ref().ok().filter(|_| self.is_relevant)
     }
@@ -76,7 +78,7 @@ pub(super) fn fit_adjectives(
     let highest = values.fold(0.0, f64::max);
     if highest <= SHORT_SCALE {
         findings.push(format!(
-            "no rating is above {highest}, but the scale is assumed to be 0 to 100; if it is another one, give it (--scale LOW,HIGH) or convert the ratings"
+            "no rating is above {highest}, but the scale is assumed to be 0 to 100; if the ratings use another scale, state it (--scale LOW,HIGH) or convert them"
         ));
     }
     let row_of: Vec<Option<usize>> =

@@ -22,17 +22,19 @@ pub struct Axis {
     pub felt: Vec<f64>,
     /// Prediction from features; `None` with fewer textures than [`selection::MIN_TEXTURES`].
     pub prediction: Option<Prediction>,
-    /// Which of the two is used as position.
+    /// Whether the perceived or the predicted positions are used.
     pub placed_by: PlacedBy,
 }
 
-/// Nested correlation from which predicted positions are assumed to be closer to human perception than the perceived
-/// positions of a small panel, because features do not contain the noise of the panel.
+/// Lowest nested correlation ([`Validation::nested_cv_r`]) at which the predicted positions of an axis are used
+/// automatically. From this value on, they are assumed to be closer to human perception than the perceived positions of
+/// a small panel, because features do not contain the noise of the panel.
 ///
-/// Determined with simulated panels of 3 and 10 raters of the starter library. The simulated truth deviated from the
-/// positions that the vibrations predict, with a standard deviation of 0 to 60 points. Of 46 axes at or above this
-/// limit, the predicted positions correlated better with the truth for 36; for the others they were worse by at most
-/// 0.02. Of 74 axes below the limit, the perceived positions correlated better for 60.
+/// Determined on the starter library with simulated panels of 3 and 10 raters. The true positions were simulated: those
+/// that the vibrations predict, plus a deviation with a standard deviation of 0 to 60 points. For 36 of the 46 axes at
+/// or above this limit, the predicted positions correlated better with the true positions than the perceived ones; for
+/// the other 10, their correlation was lower by at most 0.02. For 60 of the 74 axes below the limit, the perceived
+/// positions correlated better.
 pub const TRUSTED_NESTED_R: f64 = 0.85;
 
 impl Axis {
@@ -57,7 +59,7 @@ pub struct Prediction {
     pub predicted: Vec<f64>,
     /// The axis model.
     pub model: AxisModel,
-    /// Steps of the published chain, if the method is [`Method::Paper`].
+    /// Intermediate results of the published method, if the method is [`Method::Paper`].
     pub chain: Option<PaperChain>,
     /// Names of the features in the model.
     pub features: Vec<String>,
@@ -65,20 +67,20 @@ pub struct Prediction {
     pub validation: Validation,
 }
 
-/// The axes and the choices behind them.
+/// The axes, and the adjective pairs chosen for them.
 pub(super) struct Axes {
     pub(super) fitted: [Axis; 2],
-    /// Angle between the lines of the two pairs, in degrees.
+    /// Angle between the directions of the two pairs in the perceptual space, in degrees.
     pub(super) angle_degrees: f64,
-    /// Indices of the pairs among the adjectives, and which end of each is 0.
+    /// Indices of the pairs among the adjectives, and which pole of each is at 0.
     pub(super) chosen: [(usize, ZeroAt); 2],
 }
 
 /// Poles of the preferred axes.
 const USUAL: [[&str; 2]; 2] = [["rough", "smooth"], ["hard", "soft"]];
 
-/// Fits both axes. `begin_axis` is called with the index of each axis before its model is selected; its error ends the
-/// work. `go_on` is called before every model fit; returning `false` stops.
+/// Fits both axes. `begin_axis` is called with the index of each axis before its model is fitted; an error from
+/// `begin_axis` is returned. `go_on` is called before every model fit; if it returns `false`, the work stops.
 pub(super) fn fit_axes(
     adjectives: &[Adjective],
     points: &[Vec<f64>],
@@ -107,7 +109,7 @@ pub(super) fn fit_axes(
         let prediction = match predict(features, &felt, options, go_on) {
             Ok(prediction) => Some(prediction),
             Err(SelectionError::Stopped) => return Err(SpaceBuildError::Stopped),
-            // A space with few textures is still a space, but without predictions.
+            // With few textures, the space is built without predictions.
             Err(SelectionError::TooFew { .. }) if options.placement != Some(PlacedBy::Predicted) => None,
             Err(source) => return Err(SpaceBuildError::Selection { pair: pair.name(), source }),
         };
@@ -157,7 +159,7 @@ fn as_axis(pair: &AdjectivePair, zero_at: ZeroAt) -> AdjectivePair {
     }
 }
 
-/// Indices of the adjectives that become the axes, and which end of each is 0.
+/// Indices of the adjectives that become the axes, and which pole of each is at 0.
 fn choose(adjectives: &[Adjective], options: &SpaceOptions) -> Result<[(usize, ZeroAt); 2], SpaceBuildError> {
     if let Some([first, second]) = &options.axes {
         let axes = [named(adjectives, first)?, named(adjectives, second)?];
@@ -203,7 +205,7 @@ fn reasons(adjectives: &[Adjective]) -> String {
     adjectives.iter().filter_map(reason).collect()
 }
 
-/// Index of the adjective with these poles, and which end of it is 0.
+/// Index of the adjective with these poles, and which pole of it is at 0.
 fn find(adjectives: &[Adjective], [low, high]: [&str; 2]) -> Option<(usize, ZeroAt)> {
     let is = |a: &str, b: &str| a.trim().eq_ignore_ascii_case(b.trim());
     adjectives.iter().enumerate().find_map(|(index, Adjective { pair, .. })| {

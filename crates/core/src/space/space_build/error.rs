@@ -62,9 +62,9 @@ pub enum SpaceBuildError {
     /// The perceptual space cannot be scaled.
     #[error(transparent)]
     Mds(MdsError),
-    /// The sorts do not connect all textures.
+    /// The sorts fall into sets of textures without a connection.
     #[error(
-        "no chain of sorts connects \"{first}\" and \"{second}\"; collect sorts that contain textures of both sets, or build two spaces"
+        "the sorts fall into separate sets of textures, one with \"{first}\" and one with \"{second}\"; collect sorts that contain textures of both sets, or build a space for each set"
     )]
     Apart {
         /// A texture of the first set.
@@ -78,26 +78,26 @@ pub enum SpaceBuildError {
     /// The votes cannot be counted.
     #[error(transparent)]
     Votes(#[from] VoteError),
-    /// Fewer than two pairs can be axes.
+    /// Fewer than two adjective pairs can be axes.
     #[error(
-        "{} can be {}, but two are needed; rate another adjective pair, or repeat the relevance vote{reasons}",
+        "{} can be {}, but two are needed{reasons}; rate another adjective pair, or repeat the relevance vote",
         counted(*n_pairs, "adjective pair"),
         if *n_pairs == 1 { "an axis" } else { "axes" }
     )]
     TooFewPairs {
         /// Number of pairs that can be axes.
         n_pairs: usize,
-        /// Reasons why the others cannot, each after a semicolon.
+        /// Reasons why the other pairs cannot be axes, each after a semicolon.
         reasons: String,
     },
-    /// The pair requested as axis was not rated or is excluded.
+    /// The pair requested as an axis was not rated, is excluded, or is already the other axis.
     #[error("\"{pair}\" cannot be an axis: {reason}; available pairs: {pairs}")]
     NoSuchAxis {
         /// Name of the pair.
         pair: String,
         /// Reason why it cannot be an axis.
         reason: &'static str,
-        /// Names of the pairs that can.
+        /// Names of the pairs that can be axes.
         pairs: String,
     },
     /// Property fitting of an axis fails.

@@ -2,8 +2,9 @@
 //!
 //! Each bootstrap sample draws as many participants as took part, with replacement, together with their sorts and
 //! ratings. Scaling, property fitting and projection are repeated for each sample. The standard deviation of a
-//! texture's position over the samples measures how much it depends on who took part. Positions run from 0 to 100
-//! between the outermost textures of each sample, so these two hardly vary by definition.
+//! texture's position over the samples measures how much the position depends on who took part. In every sample, the
+//! axis is scaled so that its two outermost textures are at 0 and 100. Textures at the ends of an axis therefore vary
+//! little by construction.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +21,7 @@ use crate::space::space_build::SpaceBuildError;
 /// Minimum number of sorters, and of raters, for a bootstrap.
 pub const MIN_DRAWN: usize = 3;
 
-/// Minimum number of successful samples for a standard deviation.
+/// Minimum number of samples that yield a space, for a standard deviation.
 const MIN_SPACES: usize = 2;
 
 /// Random starts of each scaling in addition to the classical start; few suffice, because most starts reach a good
@@ -32,13 +33,14 @@ const N_RANDOM_STARTS: usize = 4;
 pub struct Stability {
     /// Number of samples that yielded a space.
     pub n_draws: usize,
-    /// Number of samples that yielded none: the sorts do not separate the textures, or an adjective has no direction.
+    /// Number of samples that yielded no space, for example because their sorts do not separate the textures, or
+    /// because an adjective pair has no direction.
     pub n_failed: usize,
     /// Standard deviation of each texture's perceived position along both axes, in points of 100.
     pub deviations: Vec<[f64; 2]>,
     /// Root mean square of these standard deviations over the textures.
     pub typical: [f64; 2],
-    /// Standard deviation of the angle between the two lines, in degrees.
+    /// Standard deviation of the angle between the directions of the two pairs, in degrees.
     pub angle_deviation_degrees: f64,
 }
 
@@ -48,15 +50,15 @@ pub(super) struct Drawn<'a> {
     pub(super) textures: &'a [String],
     pub(super) sorts: &'a [Sort],
     pub(super) ratings: &'a RatingTable,
-    /// Indices of the axes among the pairs of the table, and which end of each is 0.
+    /// Indices of the axes among the pairs of the table, and which pole of each is at 0.
     pub(super) axes: [(usize, ZeroAt); 2],
     pub(super) n_dims: usize,
     pub(super) is_orthogonal: bool,
     pub(super) mds: &'a MdsOptions,
 }
 
-/// Bootstrap stability of the positions; `None` if `n_draws` is 0, or if it cannot be estimated (a finding gives the
-/// reason).
+/// Bootstrap stability of the perceived positions; `None` if `n_draws` is 0, or if the stability cannot be estimated
+/// (then a finding gives the reason).
 ///
 /// # Errors
 /// [`SpaceBuildError::Stopped`] if `go_on`, which is called before every sample, returns `false`.
@@ -77,7 +79,7 @@ pub(super) fn stability<'a>(
     let (n_sorters, n_raters) = (n_who(|did| did.sorted), n_who(|did| did.rated));
     if n_sorters.min(n_raters) < MIN_DRAWN {
         findings.push(format!(
-            "the stability of the positions cannot be estimated: {n_sorters} sorted and {n_raters} rated, but at least {MIN_DRAWN} of each are needed"
+            "the stability of the positions cannot be estimated: {n_sorters} participants sorted and {n_raters} rated, but at least {MIN_DRAWN} of each are needed"
         ));
         return Ok(None);
     }
@@ -156,7 +158,7 @@ fn places_by(drawn: &Drawn<'_>, participants: &[&str]) -> Option<Places> {
     let own = |name| drawn.sorts.iter().filter(move |sort| sort.participant == name);
     let sorts: Vec<&Sort> = participants.iter().copied().flat_map(own).collect();
     let dissimilarities = pooled_dissimilarities(drawn.textures, &sorts).ok()?.ok()?;
-    // The starts are the same every time, so that only the participants differ.
+    // All samples use the same random starts, so that only the participants differ.
     let options = MdsOptions { n_random_starts: N_RANDOM_STARTS, ..drawn.mds.clone() };
     let points = nonmetric(&dissimilarities, drawn.n_dims, &options).ok()?.points;
     let raters: Vec<usize> = participants

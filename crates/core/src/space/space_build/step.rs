@@ -39,7 +39,8 @@ impl Step {
     }
 }
 
-/// Present step of a build. Work beside the main sequence asks whether to go on without reporting a step of its own.
+/// Current step of a build. Work that runs in parallel with the main sequence has no step of its own: it repeats the
+/// report of the current step to ask whether to continue.
 pub(super) struct Progress<'a> {
     on_step: &'a (dyn Fn(Step) -> bool + Sync),
     now: Mutex<Step>,
@@ -52,15 +53,15 @@ impl<'a> Progress<'a> {
         Self { on_step, now: Mutex::new(Step::Sorting), is_stopped: AtomicBool::new(false) }
     }
 
-    /// Reports a step; an error if the build is to stop.
+    /// Starts a step and reports it. Returns an error if the build is to stop.
     pub(super) fn begin(&self, step: Step) -> Result<(), SpaceBuildError> {
-        // Held during the report: otherwise another thread could report the step before after this one.
+        // The lock is held during the report. Otherwise another thread could report the previous step after this one.
         let mut now = self.now.lock().unwrap_or_else(PoisonError::into_inner);
         *now = step;
         if self.report(step) { Ok(()) } else { Err(SpaceBuildError::Stopped) }
     }
 
-    /// Reports the present step once more and returns whether to continue.
+    /// Reports the current step again and returns whether to continue.
     pub(super) fn go_on(&self) -> bool {
         let now = self.now.lock().unwrap_or_else(PoisonError::into_inner);
         self.report(*now)
@@ -71,7 +72,8 @@ impl<'a> Progress<'a> {
         self.is_stopped.store(true, Ordering::Relaxed);
     }
 
-    /// Reports a step unless the build was stopped. A refusal stops all work, whoever asked.
+    /// Reports a step unless the build was stopped, and returns whether to continue. If the caller's function returns
+    /// `false` once, all threads stop.
     fn report(&self, step: Step) -> bool {
         let goes_on = !self.is_stopped.load(Ordering::Relaxed) && (self.on_step)(step);
         if !goes_on {
@@ -98,7 +100,7 @@ mod tests {
         let progress = Progress::new(&on_step);
         assert_eq!(progress.begin(Step::Features), Ok(()));
         assert!(progress.go_on());
-        // One refusal stops all work, and nobody is asked again.
+        // The first `false` stops all work, and the function is not called again.
         assert_eq!(progress.begin(Step::Stability), Err(SpaceBuildError::Stopped));
         assert!(!progress.go_on());
         assert_eq!(progress.begin(Step::Scaling), Err(SpaceBuildError::Stopped));

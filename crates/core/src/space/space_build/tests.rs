@@ -86,7 +86,7 @@ fn build_with_votes(
 }
 
 #[test]
-fn what_the_panel_felt_becomes_the_axes_and_is_predicted() {
+fn axes_follow_the_labels_of_the_panel_and_features_predict_them() {
     let built = build(judgments(&["rough-smooth", "hard-soft", "sticky-slippery"]), &quick()).unwrap();
     assert_eq!(built.textures.len(), N);
     assert!(built.perceptual.stress < 0.15 && built.stress.windows(2).all(|w| w[1] <= w[0] + 1e-9));
@@ -108,14 +108,14 @@ fn what_the_panel_felt_becomes_the_axes_and_is_predicted() {
     assert!(random.r_squared < 0.5 && built.adjectives[0].line.as_ref().unwrap().r_squared > 0.8);
     let said = validation_summary(&built).join("\n");
     for words in
-        ["simulated raters: no person felt the textures", "nested cross-validation", "19 permutations", "ICC"]
+        ["simulated raters; no person felt the textures", "nested cross-validation", "19 permutations", "ICC"]
     {
         assert!(said.contains(words), "\"{words}\" is missing in: {said}");
     }
 }
 
 #[test]
-fn places_are_predictions_where_those_can_be_trusted() {
+fn positions_are_predicted_if_the_nested_correlation_reaches_the_limit() {
     let (sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
     let built = |placement: Option<PlacedBy>, step: usize| {
         let models = models();
@@ -138,7 +138,7 @@ fn places_are_predictions_where_those_can_be_trusted() {
             PlacedBy::Predicted,
             "predicted from features, by models trained on the same textures, because",
         ),
-        (&others, PlacedBy::Felt, "perceived positions, from the judgments, because the nested r"),
+        (&others, PlacedBy::Felt, "perceived positions, computed from the judgments, because the nested"),
     ] {
         for axis in &built.axes {
             let nested_r = axis.prediction.as_ref().unwrap().validation.nested_cv_r;
@@ -159,7 +159,7 @@ fn places_are_predictions_where_those_can_be_trusted() {
 }
 
 #[test]
-fn an_axis_may_be_named_the_other_way_round() {
+fn a_pair_rated_with_exchanged_poles_becomes_a_reversed_axis() {
     let turned = build(judgments(&["smooth-rough", "hard-soft"]), &quick()).unwrap();
     // The panel rates by the labels, so the pole "rough" is now at 100, and the axis is reversed to put it at 0.
     let straight = build(judgments(&["rough-smooth", "hard-soft"]), &quick()).unwrap();
@@ -173,7 +173,7 @@ fn an_axis_may_be_named_the_other_way_round() {
 }
 
 #[test]
-fn axes_are_the_best_of_each_dimension_where_none_is_usual_and_turned_on_request() {
+fn without_the_usual_pairs_the_best_pair_of_each_dimension_is_chosen_and_orthogonalized_on_request() {
     let options = SpaceOptions { is_orthogonal: true, placement: Some(PlacedBy::Predicted), ..quick() };
     let built = build(judgments(&["warm-cold", "dull-sharp", "one-two"]), &options).unwrap();
     let mut names = built.axes.each_ref().map(|axis| axis.pair.name());
@@ -185,7 +185,7 @@ fn axes_are_the_best_of_each_dimension_where_none_is_usual_and_turned_on_request
 }
 
 #[test]
-fn what_is_missing_is_said_and_lived_with() {
+fn missing_sorts_and_ratings_are_reported_and_tolerated() {
     let (mut sorts, mut ratings) = judgments(&["rough-smooth", "hard-soft"]);
     for sort in &mut sorts {
         sort.placements.retain(|placement| placement.texture != "t13");
@@ -204,7 +204,7 @@ fn what_is_missing_is_said_and_lived_with() {
 }
 
 #[test]
-fn few_textures_have_a_space_and_no_prediction() {
+fn few_textures_give_a_space_without_predictions() {
     let (mut sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
     for sort in &mut sorts {
         sort.placements.retain(|placement| placement.texture.as_str() < "t05");
@@ -216,7 +216,7 @@ fn few_textures_have_a_space_and_no_prediction() {
 }
 
 #[test]
-fn a_space_that_collapsed_is_called_so() {
+fn a_collapsed_space_is_reported() {
     let said = |points: Vec<Vec<f64>>| {
         let mds = Mds { points, stress: 0.0, converged: true, n_steps: 9, stress_by_start: vec![0.0] };
         of_scaling(&mds, 2).join("\n")
@@ -231,7 +231,7 @@ fn a_space_that_collapsed_is_called_so() {
 }
 
 #[test]
-fn impossible_groups_and_strangers_are_said() {
+fn wrong_group_counts_and_disjoint_participants_are_reported() {
     let names: Vec<String> = models().into_iter().map(|(name, _)| name).take(7).collect();
     let sort = |participant: usize, odd: usize| Sort {
         participant: format!("p{participant}"),
@@ -254,7 +254,7 @@ fn impossible_groups_and_strangers_are_said() {
 }
 
 #[test]
-fn who_skipped_a_part_is_named() {
+fn participants_who_only_sorted_or_only_rated_are_named() {
     let (mut sorts, mut ratings) = judgments(&["rough-smooth", "hard-soft"]);
     sorts.retain(|sort| sort.participant != "simulated-04");
     ratings.retain(|rating| rating.participant != "simulated-03");
@@ -263,14 +263,14 @@ fn who_skipped_a_part_is_named() {
     for words in [
         "sorted but did not rate: simulated-03",
         "rated but did not sort: simulated-04",
-        "1 of 21 sorts omit textures, for example that of simulated-01 (trial 3 groups): 4 textures",
+        "sorts that omit textures: 1 of 21; for example, the sort of simulated-01 (trial 3 groups) omits 4 textures",
     ] {
         assert!(said.contains(words), "\"{words}\" is missing in: {said}");
     }
 }
 
 #[test]
-fn textures_that_nobody_parts_are_named() {
+fn textures_that_nobody_separates_are_named() {
     let (mut sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
     for sort in &mut sorts {
         let group = sort.placements[0].group.clone();
@@ -284,7 +284,7 @@ fn textures_that_nobody_parts_are_named() {
 }
 
 #[test]
-fn places_are_steadier_with_more_participants() {
+fn more_participants_reduce_the_standard_deviation_of_positions() {
     let typical = |n_participants: usize| {
         let config = PanelConfig { n_participants, noise_points: 15.0, ..panel() };
         let names: Vec<String> = models().into_iter().map(|(name, _)| name).collect();
@@ -314,12 +314,12 @@ fn parted(n_sorters: usize, n_raters: usize) -> (Vec<Sort>, Vec<Rating>) {
 }
 
 #[test]
-fn who_cannot_be_exchanged_leaves_stability_open() {
+fn too_few_sorters_or_raters_give_no_stability() {
     let options = SpaceOptions { features: FeatureKind::Physical, n_permutations: 0, ..quick() };
     for (n_sorters, n_raters) in [(1, 8), (2, 8), (8, 2)] {
         let built = build(parted(n_sorters, n_raters), &options).unwrap();
         assert_eq!(built.stability, None);
-        let said = format!("{n_sorters} sorted and {n_raters} rated, but at least 3 of each are needed");
+        let said = format!("{n_sorters} participants sorted and {n_raters} rated, but at least 3 of each");
         assert!(built.findings.iter().any(|finding| finding.contains(&said)), "{:?}", built.findings);
     }
     assert!(build(parted(4, 4), &options).unwrap().stability.is_some());
@@ -329,7 +329,7 @@ fn who_cannot_be_exchanged_leaves_stability_open() {
 }
 
 #[test]
-fn what_all_agree_on_does_not_move_and_what_they_disagree_on_does() {
+fn positions_vary_between_bootstrap_samples_only_if_participants_disagree() {
     let options = SpaceOptions { features: FeatureKind::Physical, n_permutations: 0, ..quick() };
     let (sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
     // All participants sort and rate like the first one, so every bootstrap sample is the same.
@@ -370,7 +370,7 @@ fn what_all_agree_on_does_not_move_and_what_they_disagree_on_does() {
 }
 
 #[test]
-fn a_pair_that_too_few_find_relevant_is_no_axis() {
+fn a_pair_that_too_few_votes_find_relevant_is_no_axis() {
     let (sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
     let vote = |participant: &str, adjective: &str, relevant: bool| RelevanceVote {
         participant: participant.to_owned(),
@@ -392,7 +392,7 @@ fn a_pair_that_too_few_find_relevant_is_no_axis() {
 type Change = dyn Fn(&mut Vec<Sort>, &mut Vec<Rating>, &mut SpaceOptions);
 
 #[test]
-fn what_makes_no_space_says_why() {
+fn invalid_judgments_and_options_are_refused_with_the_reason() {
     let good = || judgments(&["rough-smooth", "hard-soft"]);
     let check = |change: &Change, words: &str| {
         let ((mut sorts, mut ratings), mut options) = (good(), quick());
@@ -408,7 +408,7 @@ fn what_makes_no_space_says_why() {
             sort.placements.retain(|p| (p.texture.as_str() < "t07") == (i % 2 == 0));
         }
     };
-    check(&apart, "no chain of sorts connects \"t00\" and \"t07\"");
+    check(&apart, "one with \"t00\" and one with \"t07\"");
     check(&|sorts, _, _| sorts.push(sorts[0].clone()), "has trial \"3 groups\" twice");
     check(&|_, ratings, _| ratings.push(ratings[0].clone()), "twice on rough");
     check(&|_, ratings, _| ratings[4].value = Some(140.0), "140");
@@ -442,7 +442,7 @@ fn what_makes_no_space_says_why() {
 }
 
 #[test]
-fn steps_are_told_in_order_and_can_be_stopped() {
+fn steps_are_reported_in_order_and_can_be_stopped() {
     let (sorts, ratings) = judgments(&["rough-smooth", "hard-soft"]);
     let models = models();
     let textures = models.iter().map(|(name, model)| NamedTexture { name, model }).collect();

@@ -11,11 +11,11 @@ const WEAK_R_SQUARED: f64 = 0.5;
 const OBLIQUE_DEGREES: f64 = 15.0;
 /// ICC of the mean rating below which agreement is called poor (Koo and Li 2016).
 const POOR_ICC: f64 = 0.5;
-/// p-value from which a line or a prediction is called not significant.
+/// p-value at or above which a line or a prediction is called not significant.
 const CHANCE: f64 = 0.05;
 
-/// Kruskal's (1964) verbal rating of a stress-1 value. He rates 0, 0.025, 0.05, 0.1 and 0.2; the boundaries here lie
-/// halfway between, so his values get his words.
+/// Kruskal's (1964) word for a stress-1 value. He gives words for 0, 0.025, 0.05, 0.1 and 0.2; the boundaries here lie
+/// halfway between these values.
 pub fn kruskal_word(stress: f64) -> &'static str {
     match stress {
         s if s < 0.0125 => "nearly perfect",
@@ -31,14 +31,15 @@ pub(super) fn least_textures(n_dims: usize) -> usize {
     4 * n_dims + 1
 }
 
-/// Validation summary of a space, most general sentences first. Irregularities are in [`SpaceBuild::findings`].
+/// Validation summary of a space, most general sentences first. Warnings about irregularities are in
+/// [`SpaceBuild::findings`].
 pub fn validation_summary(build: &SpaceBuild) -> Vec<String> {
     let mut said = vec![
         format!(
-            "{}, from {}{}.",
+            "{}; source of the judgments: {}{}.",
             counted(build.textures.len(), "texture"),
             build.source.label(),
-            if build.source == LabelSource::SimulatedRaters { ": no person felt the textures" } else { "" }
+            if build.source == LabelSource::SimulatedRaters { "; no person felt the textures" } else { "" }
         ),
         format!(
             "Stress of the {}-dimensional perceptual space: {:.3}, {}.",
@@ -65,7 +66,7 @@ pub fn validation_summary(build: &SpaceBuild) -> Vec<String> {
 fn place(axis: &Axis, is_chosen_here: bool) -> String {
     let pair = &axis.pair;
     let place = match axis.placed_by {
-        PlacedBy::Felt => "perceived positions, from the judgments",
+        PlacedBy::Felt => "perceived positions, computed from the judgments",
         PlacedBy::Predicted => "positions predicted from features, by models trained on the same textures",
     };
     let nested_r = axis.prediction.as_ref().map(|prediction| prediction.validation.nested_cv_r);
@@ -73,8 +74,10 @@ fn place(axis: &Axis, is_chosen_here: bool) -> String {
         (false, _) => String::new(),
         (true, None) => ", because there is no prediction".to_owned(),
         (true, Some(r)) => {
-            let side = if axis.placed_by == PlacedBy::Predicted { "not below" } else { "below" };
-            format!(", because the nested r of the prediction, {r:.3}, is {side} {TRUSTED_NESTED_R}")
+            let side = if axis.placed_by == PlacedBy::Predicted { "at least" } else { "below" };
+            format!(
+                ", because the nested correlation of the prediction, {r:.3}, is {side} {TRUSTED_NESTED_R}"
+            )
         }
     };
     format!("{pair}: {place}{why}.")
@@ -83,28 +86,30 @@ fn place(axis: &Axis, is_chosen_here: bool) -> String {
 fn angle(build: &SpaceBuild) -> String {
     let names = build.axes.each_ref().map(|axis| axis.pair.to_string());
     let degrees = build.angle_degrees;
-    let meets =
-        format!("{} and {} are at an angle of {degrees:.1}° in the perceptual space", names[0], names[1]);
+    let meets = format!(
+        "The directions of {} and {} in the perceptual space form an angle of {degrees:.1}°",
+        names[0], names[1]
+    );
     if build.options.is_orthogonal {
         format!("{meets}; the second axis was made orthogonal to the first.")
     } else if (degrees - 90.0).abs() > OBLIQUE_DEGREES {
-        format!("{meets}: they are not independent, although the map shows them as orthogonal.")
+        format!("{meets}: the axes are not independent, although the map draws them at a right angle.")
     } else {
         format!("{meets}.")
     }
 }
 
-/// Fit of an axis line and agreement of its raters.
+/// Fit of the mean ratings of an axis in the perceptual space, and agreement of the raters.
 fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
     let adjective = &build.adjectives[axis.adjective];
     let line = adjective.line.as_ref().ok()?;
     let weak = if line.r_squared < WEAK_R_SQUARED { ", a weak fit" } else { "" };
     let agreement = adjective.agreement.as_ref().map_or_else(
-        |reason| format!("inter-rater agreement unknown ({reason})"),
+        |reason| format!("inter-rater agreement is unknown ({reason})"),
         |agreement| {
             let icc = agreement.average.value;
             let poor = if icc < POOR_ICC { ", poor" } else { "" };
-            format!("ICC of the mean rating {icc:.2}{poor}")
+            format!("inter-rater agreement (ICC of the mean rating) {icc:.2}{poor}")
         },
     );
     let luck = if line.p_value >= CHANCE {
@@ -115,10 +120,13 @@ fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
     } else {
         String::new()
     };
-    Some(format!("{}: R² {:.2} in the perceptual space{weak}{luck}; {agreement}.", axis.pair, line.r_squared))
+    Some(format!(
+        "{}: R² of the ratings in the perceptual space {:.2}{weak}{luck}; {agreement}.",
+        axis.pair, line.r_squared
+    ))
 }
 
-/// Bootstrap stability of the positions.
+/// Bootstrap stability of the perceived positions.
 fn stability(build: &SpaceBuild) -> Option<String> {
     let stability = build.stability.as_ref()?;
     let loose = |[first, second]: &[f64; 2]| first.hypot(*second);
@@ -131,7 +139,7 @@ fn stability(build: &SpaceBuild) -> Option<String> {
         n => format!("; {} yielded no space", counted(n, "more sample")),
     };
     Some(format!(
-        "Bootstrap over participants ({} samples): the standard deviation of the perceived positions is {:.1} points of 100 along {} and {:.1} along {}, largest for {}; that of the angle is {:.0}°{failed}.",
+        "Bootstrap over participants ({} samples): the perceived positions have a standard deviation of {:.1} points of 100 on {} and {:.1} on {} (root mean square over textures; largest for {}). The angle between the two directions has a standard deviation of {:.0}°{failed}.",
         stability.n_draws,
         stability.typical[0],
         build.axes[0].pair,
@@ -142,7 +150,8 @@ fn stability(build: &SpaceBuild) -> Option<String> {
     ))
 }
 
-/// Validation of an axis prediction; it always states the unbiased figure together with the published one.
+/// Validation of an axis prediction. The sentence always states the unbiased correlation together with the one that is
+/// usually published.
 fn prediction(axis: &Axis) -> Option<String> {
     let prediction = axis.prediction.as_ref()?;
     let v = &prediction.validation;
@@ -154,7 +163,7 @@ fn prediction(axis: &Axis) -> Option<String> {
         },
     );
     Some(format!(
-        "{}: predicted from {}; nested cross-validation r = {:.2} (range-normalized accuracy {:.1} %, {:.1} % for predicting the mean; {chance}). Plain correlation: {:.2} nested; {:.2} with features selected on all textures, as usually published and biased upwards ({:.1} %).",
+        "{}: predicted from {}; nested correlation {:.2} ({chance}). In nested cross-validation, the range-normalized accuracy is {:.1} % (predicting the mean gives {:.1} %) and the plain correlation {:.2}. With features selected on all textures, as usually published and biased upwards, the plain correlation is {:.2} and the accuracy {:.1} %.",
         axis.pair,
         counted(prediction.features.len(), "feature"),
         v.nested_cv_r,

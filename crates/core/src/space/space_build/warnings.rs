@@ -11,7 +11,7 @@ use crate::space::space_build::validation::least_textures;
 use crate::space::space_build::{Axis, SpaceData};
 use crate::words::counted;
 
-/// Maximum number of findings of one kind that are listed; the rest are only counted.
+/// Maximum number of findings of one kind that are listed; the others are only counted.
 const N_SAID: usize = 3;
 
 /// Minimum number of sorters; with fewer, the perceptual space depends mostly on chance.
@@ -42,11 +42,12 @@ pub(super) fn of_sorting(
     let n_sorters = similarity.agreements.len();
     if n_sorters < MIN_SORTERS {
         let advice = match ties {
-            Ties::Primary => "; with so few, secondary ties work better",
+            Ties::Primary => "; with so few participants, use secondary ties",
             Ties::Secondary => "",
         };
         said.push(format!(
-            "only {n_sorters} sorted: most dissimilarities are tied, so the perceptual space depends on chance even if its stress is low; ten participants are usual{advice}"
+            "only {} sorted the textures: most dissimilarities are tied, so the perceptual space depends on chance even if its stress is low; ten participants are usual{advice}",
+            counted(n_sorters, "participant")
         ));
     }
     if n_sorters > 1 && all_sorted_alike(&data.sorts) {
@@ -101,12 +102,12 @@ pub(super) fn of_places(textures: &[String], positions: &[SpacePoint]) -> Option
         n => format!(" (and {})", counted(n - 1, "more pair")),
     };
     Some(format!(
-        "{} and {}{more} have nearly the same position (distance below {COINCIDENT} points); a point there gives one of them, not both",
+        "{} and {}{more} have nearly the same position (distance below {COINCIDENT} points): mode field averages such textures, and the other modes change from one to the other within this distance",
         textures[i], textures[j]
     ))
 }
 
-/// Findings about the sorts; of many findings of one kind only the first few, with a count of the rest.
+/// Findings about the sorts. Of each kind, the first few are listed and the others counted.
 fn sort_findings(findings: &[Finding]) -> Vec<String> {
     let mut said = Vec::new();
     let mut n_of: BTreeMap<&str, usize> = BTreeMap::new();
@@ -118,7 +119,7 @@ fn sort_findings(findings: &[Finding]) -> Vec<String> {
         }
     }
     let rest = n_of.into_iter().filter(|(_, n)| *n > N_SAID);
-    said.extend(rest.map(|(name, n)| format!("{name}: {} more cases", n - N_SAID)));
+    said.extend(rest.map(|(name, n)| format!("{name}: {}", counted(n - N_SAID, "more case"))));
     said
 }
 
@@ -129,7 +130,7 @@ fn participation(data: &SpaceData<'_>, table: &RatingTable) -> Vec<String> {
     let mut said = Vec::new();
     if sorters.is_disjoint(&raters) {
         said.push(
-            "no participant both sorted and rated: there are two groups of people, or names have two spellings"
+            "no participant both sorted and rated: either these are two groups of people, or the tables spell names differently"
                 .to_owned(),
         );
     } else {
@@ -148,9 +149,9 @@ fn participation(data: &SpaceData<'_>, table: &RatingTable) -> Vec<String> {
     if let Some(first) = lacking.first() {
         let n = textures.len() - first.placements.len();
         said.push(format!(
-            "{} of {} omit textures, for example that of {} (trial {}): {}",
+            "sorts that omit textures: {} of {}; for example, the sort of {} (trial {}) omits {}",
             lacking.len(),
-            counted(data.sorts.len(), "sort"),
+            data.sorts.len(),
             first.participant,
             first.trial,
             counted(n, "texture")
@@ -196,7 +197,7 @@ pub(super) fn of_scaling(perceptual: &Mds, n_dims: usize) -> Vec<String> {
     distances.sort_by(f64::total_cmp);
     if !perceptual.converged {
         said.push(
-            "multidimensional scaling did not converge within the maximum number of steps; allow more steps"
+            "multidimensional scaling did not converge: the stress may not be the lowest possible; try another seed"
                 .to_owned(),
         );
     }

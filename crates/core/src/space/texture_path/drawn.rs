@@ -3,7 +3,8 @@
 use crate::space::SpacePoint;
 use crate::space::texture_path::{Along, AtEnd, Route, Stop};
 
-/// Maximum number of points that a drawn line is simplified to; more can be added singly, up to the limit of a route.
+/// Maximum number of points to which a drawn line is simplified; the user can add more points one by one, up to the
+/// limit of a route.
 const MOST_DRAWN: usize = 24;
 /// Minimum distance of two points, in points of the axes; closer points count as one.
 pub const LEAST_STEP: f64 = 0.5;
@@ -62,7 +63,7 @@ impl UserPath {
         Route::new(self.along, self.at_end, stops).ok()
     }
 
-    /// This path with new points: a simplification of a hand-drawn line that follows it closely with few points.
+    /// This path with new points: a hand-drawn line, simplified to few points that follow it closely.
     #[must_use]
     pub fn drawn(&self, line: &[SpacePoint]) -> Self {
         let mut tolerance = STRAIGHT;

@@ -60,7 +60,7 @@ pub enum TexturePathError {
     },
     /// The places along the stroke do not start at 0 or do not increase.
     #[error(
-        "point {number} of the path is at {} {} of the stroke; the first must be at 0, and each farther than the previous one",
+        "point {number} of the path is at {} {} of the stroke; the first point must be at 0, and every later point farther than the one before it",
         .at / .along.unit().0,
         .along.unit().1
     )]

@@ -23,7 +23,7 @@ impl PathProgress {
         self.along
     }
 
-    /// Traveled distance or time of the present stroke, in m or s.
+    /// Traveled distance or time of the current stroke, in m or s.
     pub fn traveled(&self) -> f64 {
         self.traveled
     }

@@ -54,7 +54,7 @@ pub enum TextureModelError {
         index: usize,
         /// Value of the quantity.
         value: f64,
-        /// Lowest valid value, given the other nodes.
+        /// Lowest valid value; for speed and force, it depends on the other nodes.
         low: f64,
         /// Highest valid value.
         high: f64,

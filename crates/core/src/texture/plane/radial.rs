@@ -16,9 +16,9 @@ const SILENCE: f64 = 1e-6;
 const BEYOND: f64 = 10.0;
 /// Distance between the initial triangle corners on the lines of lowest measured speed and force.
 const SPACING: f64 = 0.1;
-/// Root mean square error of the triangles' spectrum over [`FREQUENCIES`].
+/// Tolerated root mean square error of the triangles' spectrum over [`FREQUENCIES`] frequencies, in dB.
 const SPECTRUM_TOLERANCE_DB: f64 = 0.2;
-/// Error of the triangles' level relative to the level at the nearest contact in the measured range: 0.2 dB.
+/// Tolerated error of the triangles' level, relative to the level at the nearest contact in the measured range: 0.2 dB.
 const LEVEL_TOLERANCE: f64 = 0.023;
 /// Number of frequencies at which spectra are compared.
 const FREQUENCIES: usize = 24;
@@ -85,7 +85,8 @@ impl RadialGrain {
         }
     }
 
-    /// Factor on that level at a position: below the lowest speed or force it decreases linearly to zero on the axes.
+    /// Factor on [`Self::inside_level`] at a position: below the lowest measured speed or force, it decreases linearly
+    /// to zero on the axes.
     fn share(&self, at: Xy) -> f64 {
         (at[0] / self.lowest[0]).min(at[1] / self.lowest[1]).clamp(0.0, 1.0)
     }
@@ -117,7 +118,7 @@ impl RadialGrain {
                 add([line, s]);
             }
         }
-        // Avoids a long flat triangle between such a line and a node near it.
+        // Avoids a long flat triangle between one of these lines and a node near it.
         for node in &self.nodes {
             for line in [y, 1.0] {
                 if (node[1] - line).abs() < SPACING {

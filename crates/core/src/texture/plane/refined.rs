@@ -1,9 +1,10 @@
 //! Triangle refinement for an accurate level: edges are bisected where the renderer's quadratic misses the filter's
 //! power gain.
 //!
-//! A new vertex has the mean of its edge's two ends, so the grain at any contact is unchanged. Only the quadratic
-//! through corners and midpoints becomes more accurate. For a radial basis, a new vertex has the values of the basis,
-//! and edges are bisected until the triangles approximate it closely enough.
+//! A new vertex has the mean values of the two ends of its edge, so the interpolated values at any contact are
+//! unchanged. Only the quadratic through corners and midpoints, which gives the power gain, becomes more accurate. For
+//! a radial basis, a new vertex has the values of the basis, and edges are bisected until the triangles approximate it
+//! closely enough.
 //!
 //! Bisecting an edge splits the triangles on both sides, so that no corner lies on another triangle's edge. The result
 //! is still the lower hull of a lifted surface, so that walks from triangle to triangle still end (H. Edelsbrunner, "An
@@ -21,9 +22,10 @@ const TOLERANCE: f64 = 0.04 / (10.0 * std::f64::consts::LOG10_E);
 /// Minimum height of a triangle to be bisected, relative to the highest speed and force. In flatter triangles, point
 /// location in `f32` would fail.
 const FLATTEST: f64 = 2.5e-3;
-/// Maximum mean number of triangles that one triangle becomes; this bounds the preparation time of irregular textures.
+/// Maximum mean number of triangles into which an initial triangle is divided; it bounds the preparation time of
+/// irregular textures.
 const MOST_EACH: usize = 8;
-/// Maximum number of triangles that approximate a radial basis, if this is more: about 0.1 s of computation.
+/// Maximum number of triangles for a radial basis, if [`MOST_EACH`] allows fewer: about 0.1 s of computation.
 const MOST_FOR_BASIS: usize = 4000;
 /// Maximum number of triangles in total: the renderer uses 16-bit indices.
 const MOST: usize = 60_000;

@@ -6,7 +6,8 @@ use shagreen_synth::relief::{LEAST_SAMPLES, Relief as SynthRelief, length};
 
 use super::Relief;
 
-/// Relief in octaves with half as many samples each, so that a fast tip plays no content above the Nyquist frequency.
+/// Relief as a series of octaves: each has half as many samples as the one before it. For a faster tip, the renderer
+/// reads later octaves, so that it plays no content above the Nyquist frequency.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReliefOctaves {
     step_m: f32,
