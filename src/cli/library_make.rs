@@ -15,7 +15,7 @@ use shagreen_formats::{atomic, picture};
 use crate::cli::output::{self, Progress};
 use shagreen_studio::file;
 use shagreen_studio::parallel::in_parallel;
-use shagreen_studio::replace::refuse_inputs;
+use shagreen_studio::replace::{refuse_inputs, refuse_lost_textures};
 
 /// Statement of origin in a simulated library.
 const ORIGIN: &str =
@@ -33,6 +33,9 @@ pub(crate) struct Args {
     /// Library file to write.
     #[arg(long, value_name = "L")]
     out: PathBuf,
+    /// Replace a library that has other textures.
+    #[arg(long)]
+    replace: bool,
     /// Name of the library.
     #[arg(long, default_value = "Starter")]
     name: String,
@@ -53,6 +56,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     progress.finish();
     library.name.clone_from(&args.name);
     library.license.clone_from(&args.licence);
+    if !args.replace {
+        refuse_lost_textures(&args.out, &library)
+            .context("nothing was written; --replace replaces it all the same")?;
+    }
     let bytes = write_library(&library);
     atomic::write(&args.out, &bytes)?;
     let n_textures = library.textures.len();

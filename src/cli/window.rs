@@ -7,7 +7,7 @@ use anyhow::bail;
 use directories::ProjectDirs;
 use serde_json::json;
 use shagreen_formats::project::{Project, ProjectLibrary};
-use shagreen_studio::open::{Opened, open};
+use shagreen_studio::open::{Opened, is_other_kind, open};
 use shagreen_studio::project::new_project;
 
 use crate::cli::model_folder::model_folder;
@@ -19,8 +19,8 @@ pub(crate) type OpenWindow = fn(WindowRequest) -> anyhow::Result<FrameTimes>;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Project to open, or a library (a file or a folder of files) to start a project with. Default: a new project with
-    /// the starter library.
+    /// Project to open, a library (a file or a folder of files) to start a project with, or a recording, model, stroke or
+    /// photo to take. Default: a new project with the starter library.
     file: Option<PathBuf>,
     /// Output to play on, by id; `shagreen devices` lists them. Default: the output that was last selected in the
     /// window, otherwise the default output of the system.
@@ -37,6 +37,8 @@ pub(crate) struct WindowRequest {
     pub(crate) project: Project,
     /// File of the project with its SHA-256; `None` for a new one.
     pub(crate) file: Option<(PathBuf, String)>,
+    /// File to take at once that is neither a project nor a library.
+    pub(crate) take: Option<PathBuf>,
     /// Id of the output to open; `None` for the default.
     pub(crate) output: Option<String>,
     /// Folders and files of the user.
@@ -81,12 +83,15 @@ pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> any
              the commands work without one: see shagreen --help"
         );
     }
-    let (project, file) = project(args.file.as_deref())?;
+    let take = args.file.as_deref().filter(|file| is_other_kind(file) && file.is_file());
+    let take = take.map(std::path::absolute).transpose()?;
+    let (project, file) = if take.is_some() { (new_project(), None) } else { project(args.file.as_deref())? };
     // A measurement writes no user files.
     let folders = if args.measure_frames.is_some() { UserFolders::default() } else { user_folders() };
     let times = open_window(WindowRequest {
         project,
         file,
+        take,
         output: args.output.clone(),
         folders,
         measured_frames: args.measure_frames,

@@ -40,6 +40,7 @@ fn main() {
     let begin = Begin {
         project: Project { library, ..new_project() },
         file: None,
+        take: None,
         output: OutputChoice::Id("null".to_owned()),
         keeping: StoragePaths::default(),
     };

@@ -65,6 +65,7 @@ pub fn run(start: Start) -> anyhow::Result<WindowTimes> {
         strings::APP,
         options,
         Box::new(move |creation| {
+            look::browse::allow_dialogs(&creation.egui_ctx);
             let window = window::Window::new(&creation.egui_ctx, start.begin)?;
             Ok(Box::new(window::stopwatch::Stopwatch::new(
                 window,

@@ -280,7 +280,7 @@ impl Session {
     /// Starts workers for waiting jobs, once a frame.
     pub fn begin_work(&mut self, ctx: &egui::Context) {
         self.authored.models.begin(ctx);
-        self.textures.planes_ahead.begin();
+        self.textures.planes_ahead.begin(ctx);
     }
 
     /// Reads the state of the output and updates the displayed data, once a frame. The spectra are computed for

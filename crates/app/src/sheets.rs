@@ -16,6 +16,7 @@ use std::path::Path;
 
 use egui::{Align2, Context, DroppedFileHandle, FontId, Id, LayerId, Order, Popup, Stroke, StrokeKind};
 use shagreen_formats::project::EXTENSION;
+use shagreen_studio::open::is_other_kind;
 
 use crate::author::texture_sheet::TextureSheet;
 use crate::command::prompt::PromptCommand;
@@ -38,7 +39,7 @@ use crate::sheets::unsaved_changes::leaving_ui;
 use crate::state::conflict::Conflict;
 use crate::state::document::Document;
 use crate::state::leave::Leave;
-use crate::state::recorded_stroke::is_stroke_file;
+use crate::state::recorded_stroke::{is_stroke_file, is_stroke_path};
 use crate::state::recovery::Leftover;
 use crate::state::source::Source;
 use crate::strings;
@@ -192,8 +193,23 @@ impl Sheet {
     }
 }
 
+/// Command that takes a file that is neither a project nor a library; `None` for those.
+pub(crate) fn command_for(path: &Path) -> Option<Command> {
+    if !is_other_kind(path) {
+        return None;
+    }
+    let source = vec![Source::Path(path.to_owned())];
+    Some(if is_photo(path) {
+        Command::Prompt(PromptCommand::Look(source))
+    } else if is_stroke_path(path, || false) {
+        Command::Stroke(StrokeCommand::Read(source))
+    } else {
+        Command::ImportHere(source)
+    })
+}
+
 /// Whether a file is a photo, from the ending of its name.
-fn is_photo(path: &Path) -> bool {
+pub(crate) fn is_photo(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     ending.is_some_and(|ending| ["jpg", "jpeg", "png"].contains(&ending.as_str()))
 }

@@ -5,6 +5,7 @@
 use shagreen_core::space::SpacePoint;
 
 pub mod authored;
+pub mod browse;
 pub mod build;
 pub mod compare;
 pub mod conflict;
@@ -240,10 +241,9 @@ pub fn verb(verb: &str, label: &str) -> String {
     format!("{verb} {}{}", first.collect::<String>(), letters.as_str())
 }
 
-/// Number of contributing textures without a card, and the sum of their weights in percent.
-pub fn more_parents(n_more: usize, percent: f64) -> String {
-    // Rounded first, to avoid "-0 %".
-    format!("{n_more} more, total {:.0} %", percent.round() + 0.0)
+/// Number of contributing textures without a card.
+pub fn more_parents(n_more: usize) -> String {
+    format!("and {n_more} more")
 }
 
 /// Weight of the pinned texture near the point, in percent.

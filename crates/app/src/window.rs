@@ -30,7 +30,7 @@ use shagreen_studio::models::ModelFolder;
 use crate::author::canvas::point_id;
 use crate::author::prompt::Prompts;
 use crate::build::page::BuildPage;
-use crate::command::{Command, pressed};
+use crate::command::{Command, FileCommand, pressed};
 use crate::look::scale::Scale;
 use crate::look::theme::{install, tokens};
 use crate::panel::Panel;
@@ -51,6 +51,9 @@ use crate::window::status_bar::status_ui;
 use crate::window::tour::Tour;
 use crate::workspace::Workspace;
 
+/// Interval of frames while nothing happens, for the status bar.
+const IDLE: std::time::Duration = std::time::Duration::from_secs(2);
+
 /// Initial content of the window.
 #[derive(Clone, Debug)]
 pub struct Begin {
@@ -58,6 +61,8 @@ pub struct Begin {
     pub project: Project,
     /// File of the project, or `None` for an unsaved project.
     pub file: Option<DocumentFile>,
+    /// File to take at once that is neither a project nor a library, such as a recording, a stroke or a photo.
+    pub take: Option<PathBuf>,
     /// Output to open.
     pub output: OutputChoice,
     /// Paths of the files that outlive the program.
@@ -90,6 +95,8 @@ pub struct Window {
     /// Default folder for saved figures, strokes and signals.
     exports_folder: PathBuf,
     output: SelectedOutput,
+    /// File to take in the second frame.
+    take: Option<PathBuf>,
 }
 
 impl Window {
@@ -99,7 +106,7 @@ impl Window {
     /// The library cannot be read, or its positions do not form a space.
     pub fn new(ctx: &egui::Context, begin: Begin) -> anyhow::Result<Self> {
         install(ctx);
-        let Begin { project, file, output, keeping } = begin;
+        let Begin { project, file, take, output, keeping } = begin;
         let mut session = Session::new(project.library.clone())?;
         session.list_outputs(ctx);
         let leftovers = Files::leftovers(&keeping);
@@ -140,6 +147,7 @@ impl Window {
             // Without a current folder, the user completes the path.
             exports_folder: std::env::current_dir().unwrap_or_default(),
             output: selected_output,
+            take,
         })
     }
 
@@ -199,6 +207,9 @@ impl Window {
         if self.has_been_shown {
             self.session.begin_work(&ctx);
             self.pictures.begin_work(&ctx);
+            if let Some(path) = self.take.take() {
+                self.carry_out(Command::File(FileCommand::Open(path)), &ctx);
+            }
         } else {
             self.has_been_shown = true;
             ctx.request_repaint();
@@ -324,13 +335,17 @@ impl Window {
         self.files.settings.scale = self.scale.wanted();
     }
 
-    /// Requests continuous frames while something is playing, otherwise a few frames a second for the status bar.
+    /// Requests continuous frames while something is playing. Otherwise only the status bar can change by itself: input,
+    /// the pen and background jobs request their own frames.
     fn keep_going(&self, ctx: &egui::Context) {
         let sounding = self.session.touch().contact.force_n > 0.0 || self.session.scope().rms(0.5) > 1e-4;
         if self.session.hand_is_running() || sounding {
             ctx.request_repaint();
-        } else {
+        } else if self.session.is_preparing() {
+            // The notice that it takes long comes by time alone.
             ctx.request_repaint_after(std::time::Duration::from_millis(100));
+        } else {
+            ctx.request_repaint_after(IDLE);
         }
     }
 }

@@ -10,6 +10,16 @@ use shagreen_formats::project::{LibraryFile, Project, ProjectError, read_project
 
 use crate::file::{folder_of, in_file, is_special};
 
+/// Endings of the names of files that the window takes although they are neither projects nor libraries: recordings,
+/// models, strokes and photos.
+pub const OTHER_ENDINGS: [&str; 9] = ["wav", "csv", "tsv", "txt", "xml", "svc", "jpg", "jpeg", "png"];
+
+/// Returns whether the ending of a file's name is one of [`OTHER_ENDINGS`].
+pub fn is_other_kind(path: &Path) -> bool {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    ending.is_some_and(|ending| OTHER_ENDINGS.contains(&ending.as_str()))
+}
+
 /// What a file contains.
 pub enum Opened {
     /// A project, with warnings.

@@ -4,7 +4,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use shagreen_formats::bounded_file::{self, FileKind};
+use shagreen_formats::library::{Library, TextureEntry, read_library};
+use shagreen_formats::text_limits::begin_of;
 use shagreen_formats::{library, wav};
+
+/// Longest name of a texture in an error, in characters.
+const NAME_IN_ERROR: usize = 60;
 
 /// Returns an error if an output is one of the inputs, or a file of an input folder.
 ///
@@ -60,6 +65,24 @@ pub fn is_own_signal(path: &Path, bytes: &[u8]) -> bool {
 pub fn refuse_foreign_signal(out: &Path) -> anyhow::Result<()> {
     refuse_foreign(&wav::sidecar_path(out), "the signal's sidecar", is_sidecar)?;
     refuse_foreign(out, "the signal", |bytes| is_own_signal(out, bytes))
+}
+
+/// Returns an error if `library` would replace a library at `output` that has textures which `library` has not.
+///
+/// # Errors
+/// Textures would be lost.
+pub fn refuse_lost_textures(output: &Path, library: &Library) -> anyhow::Result<()> {
+    let Ok(bytes) = bounded_file::read(output, FileKind::Document) else { return Ok(()) }; // Nothing is there, or writing it fails.
+    let Ok(present) = read_library(&bytes) else { return Ok(()) };
+    let stays = |lost: &&TextureEntry| library.textures.iter().any(|texture| texture.id == lost.id);
+    let lost: Vec<&TextureEntry> = present.value.textures.iter().filter(|texture| !stays(texture)).collect();
+    let Some(first) = lost.first() else { return Ok(()) };
+    bail!(
+        "the library there has {} textures that the new one has not, such as \"{}\"; choose another name: {}",
+        lost.len(),
+        begin_of(first.name.clone(), NAME_IN_ERROR),
+        output.display()
+    );
 }
 
 /// Returns whether a file is the sidecar of a signal.

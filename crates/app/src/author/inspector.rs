@@ -17,6 +17,8 @@ use crate::strings;
 
 /// Height of the heading of the contributions, in points. Below it, three cards just fit into the smallest usual
 /// window.
+const SHARES_HEIGHT: f32 = 6.0;
+/// Height of the heading of the contributions, in points.
 const HEADING_HEIGHT: f32 = 18.0;
 
 /// Draws the inspector; returns the requested commands.
@@ -107,6 +109,7 @@ fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             ui.add(Label::new(text).truncate().selectable(false)).on_hover_text(strings::PARENTS_HELP);
         });
     });
+    shares_ui(ui, panel);
     // A weight that would be displayed as 0.0 % gets no card.
     let worthwhile = panel.session.shown_parents().iter().filter(|(_, weight)| weight.abs() >= 5e-4);
     for (parent, color) in worthwhile.zip(t.parents) {
@@ -115,15 +118,31 @@ fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     commands
 }
 
-/// Weight of the pinned texture, or else the number and total weight of the contributing textures without a card.
+/// Draws one bar of all contributing textures: those with cards in their colors, all others together in gray. A field
+/// has small negative weights too, so shares are of the sum of magnitudes.
+fn shares_ui(ui: &mut Ui, panel: &Panel<'_>) {
+    let t = tokens(ui.ctx());
+    let Some(authored) = panel.session.authored() else { return };
+    let sum: f64 = authored.parents.iter().map(|(_, weight)| weight.abs()).sum();
+    let (area, _) = ui.allocate_exact_size(vec2(ui.available_width(), SHARES_HEIGHT), Sense::hover());
+    ui.painter().rect_filled(area, 3.0, t.text_weak.gamma_multiply(0.45));
+    let mut left = area.left();
+    for ((_, weight), color) in panel.session.shown_parents().iter().zip(t.parents) {
+        let right = left + area.width() * (weight.abs() / sum.max(f64::MIN_POSITIVE)) as f32;
+        let part = Rect::from_min_max(egui::pos2(left, area.top()), egui::pos2(right, area.bottom()));
+        ui.painter().rect_filled(part, 0.0, color);
+        left = right;
+    }
+}
+
+/// Weight of the pinned texture, or else the number of the contributing textures without a card.
 fn besides(panel: &Panel<'_>) -> Option<String> {
     let authored = panel.session.authored()?;
     if let Some((texture, share)) = authored.lock.filter(|_| panel.solo().is_none()) {
         return Some(strings::locked_share(&panel.session.textures()[texture].name, 100.0 * share));
     }
     let rest = authored.parents.get(panel.session.shown_parents().len()..).filter(|rest| !rest.is_empty())?;
-    let sum: f64 = rest.iter().map(|(_, weight)| weight).sum();
-    Some(strings::more_parents(rest.len(), 100.0 * sum))
+    Some(strings::more_parents(rest.len()))
 }
 
 /// Card of a contributing texture, with a solo button and, in the Field mode, a pin button.

@@ -5,18 +5,26 @@ use std::collections::BTreeSet;
 use egui::{Align, Button, Key, Label, Layout, RichText, TextEdit, Ui};
 
 use crate::build::judgments::{Judgments, Slot};
+use crate::look::browse::{Asked as Dialog, Browse};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::session::Session;
 use crate::state::source::paths_in;
 use crate::strings::build as strings;
 use shagreen_studio::judgments::JudgmentKind;
 
-/// Text in the path fields.
-#[derive(Clone, Debug, Default)]
+/// One field for the path of a table.
+#[derive(Default)]
+struct PathField {
+    text: String,
+    browse: Browse,
+}
+
+/// Fields for the paths of the tables.
+#[derive(Default)]
 pub(super) struct Paths {
-    sorting: String,
-    ratings: String,
-    votes: String,
+    sorting: PathField,
+    ratings: PathField,
+    votes: PathField,
 }
 
 /// Status of one table.
@@ -60,11 +68,11 @@ pub(super) fn inputs_ui(
         };
         let asked = table_ui(ui, kind, path, &said);
         if asked.read {
-            judgments.read(paths_in(path), Some(kind), ui.ctx());
+            judgments.read(paths_in(&path.text), Some(kind), ui.ctx());
         }
         if asked.clear {
             judgments.clear(kind);
-            path.clear();
+            path.text.clear();
         }
     }
     for alike in judgments.alike() {
@@ -78,7 +86,7 @@ pub(super) fn inputs_ui(
     ui.add_sized(size, Button::new(strings::SIMULATE)).on_hover_text(strings::SIMULATE_HELP).clicked()
 }
 
-fn table_ui(ui: &mut Ui, kind: JudgmentKind, path: &mut String, said: &Said) -> Asked {
+fn table_ui(ui: &mut Ui, kind: JudgmentKind, path: &mut PathField, said: &Said) -> Asked {
     let t = tokens(ui.ctx());
     let mut asked = Asked::default();
     let (title, help, nothing) = match kind {
@@ -101,16 +109,30 @@ fn table_ui(ui: &mut Ui, kind: JudgmentKind, path: &mut String, said: &Said) -> 
         });
     });
     ui.horizontal(|ui| {
-        let button_width = 54.0;
-        let field = TextEdit::singleline(path)
+        let button_width = 78.0;
+        let field = TextEdit::singleline(&mut path.text)
             .hint_text(strings::PATH_HINT)
             .desired_width(ui.available_width() - button_width - GAP);
         let field = ui.add(field).accessible_name(strings::path_of(title)).on_hover_text(help);
         let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
-        let button = Button::new(crate::strings::import::READ).min_size(egui::vec2(button_width, 0.0));
-        let is_wanted =
-            ui.add_enabled(!path.trim().is_empty(), button).accessible_name(strings::read(title)).clicked();
-        asked.read = is_wanted || (is_entered && !path.trim().is_empty());
+        let is_typed = !path.text.trim().is_empty();
+        if is_typed {
+            let button = Button::new(crate::strings::import::READ).min_size(egui::vec2(button_width, 0.0));
+            asked.read = ui.add(button).accessible_name(strings::read(title)).clicked() || is_entered;
+        } else {
+            let dialog = Dialog {
+                title,
+                kind: strings::TABLES,
+                endings: &["csv", "tsv", "txt"],
+                folder: None,
+                name: None,
+                several: false,
+            };
+            if let Some(chosen) = path.browse.show(ui, title, &dialog).into_iter().next() {
+                path.text = chosen.display().to_string();
+                asked.read = true;
+            }
+        }
     });
     let line = |ui: &mut Ui, text: &str, color| {
         ui.add(Label::new(RichText::new(text).small().color(color)).wrap());

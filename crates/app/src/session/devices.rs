@@ -63,7 +63,7 @@ impl Session {
     pub fn set_rig(&mut self, rig: Rig, ctx: &egui::Context) {
         let opens_again = self.sound.rig.opens_unlike(&rig);
         self.sound.rig = rig;
-        self.hand.pen.follow(&self.sound.rig, &mut self.sound.player.pen_live);
+        self.hand.pen.follow(&self.sound.rig, &mut self.sound.player.pen_live, ctx);
         if opens_again {
             self.open_output_again(ctx);
         }

@@ -56,7 +56,7 @@ impl Pen {
     }
 
     /// Reads the selected pen with the present settings. A new thread takes `live`, the pen's input to the engine.
-    pub(super) fn follow(&mut self, rig: &Rig, live: &mut Option<LiveInput>) {
+    pub(super) fn follow(&mut self, rig: &Rig, live: &mut Option<LiveInput>, ctx: &egui::Context) {
         if self.id == rig.pen {
             if let Some(thread) = &self.thread {
                 thread.set_pressure_map(rig.pressure_map);
@@ -75,7 +75,12 @@ impl Pen {
         let tracking = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: rig.pressure_map };
         let options = PenOptions { id, tracking, size_m: size_m(rig) };
         match PenThread::start(SystemPens, options, live.take()) {
-            Ok(thread) => self.thread = Some(thread),
+            Ok(thread) => {
+                // While nothing sounds, the window draws hardly any frames by itself.
+                let ctx = ctx.clone();
+                thread.set_doorbell(move || ctx.request_repaint());
+                self.thread = Some(thread);
+            }
             Err(error) => self.message = Some(error.to_string()),
         }
     }

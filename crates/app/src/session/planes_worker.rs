@@ -37,18 +37,19 @@ impl PlanesWorker {
 
     /// Passes waiting textures to a new worker, once a frame. The worker ends after its last texture or with the
     /// session.
-    pub(super) fn begin(&mut self) {
+    pub(super) fn begin(&mut self, ctx: &egui::Context) {
         let planes = std::mem::take(&mut self.waiting);
         if planes.is_empty() {
             return;
         }
-        let sender = self.sender.clone();
+        let (sender, ctx) = (self.sender.clone(), ctx.clone());
         std::thread::spawn(move || {
             for (texture, plane) in planes {
                 let prepared = plane.prepare();
                 if sender.send((texture, plane, prepared)).is_err() {
                     return;
                 }
+                ctx.request_repaint();
             }
         });
     }

@@ -16,6 +16,7 @@ use shagreen_core::units::Kilograms;
 
 use self::calibration_ui::Measurement;
 use crate::command::Command;
+use crate::look::browse::Browse;
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::session::Session;
@@ -34,6 +35,7 @@ pub struct DevicesSheet {
     built_in: Vec<Actuator>,
     load_g: Option<f64>,
     profile_path: String,
+    browse: Browse,
     /// Actuator profile that is being read.
     reading: Option<Receiver<anyhow::Result<Actuator>>>,
     message: Option<String>,
@@ -50,6 +52,7 @@ impl DevicesSheet {
             rig: rig.clone(),
             built_in,
             profile_path: String::new(),
+            browse: Browse::default(),
             reading: None,
             message: None,
             tone_hz: 100.0,

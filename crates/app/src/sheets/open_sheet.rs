@@ -1,7 +1,5 @@
-//! Sheet that opens a project, library, stroke or signal, by its path or by browsing folders.
-//!
-//! The dialog of the operating system would need a desktop portal on Linux and cannot be operated without one. This
-//! sheet therefore replaces it.
+//! Sheet that opens a project, library, stroke or signal: with the file dialog of the system, by its path, or by
+//! browsing folders in the sheet, since not every Linux system has such a dialog.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::Receiver;
@@ -13,6 +11,7 @@ use crate::choices::signals::Slot;
 use crate::command::signals::SignalsCommand;
 use crate::command::stroke::StrokeCommand;
 use crate::command::{Command, FileCommand};
+use crate::look::browse::{Asked, Browse};
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, tokens};
 use crate::signals::reading::SIGNAL_ENDINGS;
@@ -21,6 +20,8 @@ use crate::state::recorded_stroke::TABLE_ENDINGS;
 use crate::state::source::Source;
 use crate::strings::{document as strings, signals, stroke};
 
+/// Width that the button for the dialog of the system needs, in points.
+const BROWSE_WIDTH: f32 = 92.0;
 /// Height of the list, in points.
 const LIST_HEIGHT: f32 = 260.0;
 
@@ -32,6 +33,7 @@ pub(crate) struct OpenSheet {
     listing: Option<Receiver<Vec<Entry>>>,
     is_focused: bool,
     failure: Option<String>,
+    browse: Browse,
 }
 
 /// Type of file to open.
@@ -43,6 +45,25 @@ enum Wanted {
     Strokes,
     /// File that becomes a signal in a slot of the Signals workspace.
     Signal(Slot),
+}
+
+impl Wanted {
+    fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Projects => &[EXTENSION, "json"],
+            Self::Strokes => &TABLE_ENDINGS,
+            Self::Signal(_) => &SIGNAL_ENDINGS,
+        }
+    }
+
+    fn dialog(self, folder: &Path) -> Asked<'_> {
+        let (title, kind) = match self {
+            Self::Projects => (strings::OPEN_TITLE, strings::OPEN_KIND),
+            Self::Strokes => (stroke::OPEN_TITLE, stroke::OPEN_KIND),
+            Self::Signal(_) => (signals::OPEN_TITLE, signals::OPEN_KIND),
+        };
+        Asked { title, kind, endings: self.endings(), folder: Some(folder), name: None, several: false }
+    }
 }
 
 /// File or folder that can be opened.
@@ -77,8 +98,10 @@ impl OpenSheet {
             listing: None,
             is_focused: false,
             failure: None,
+            browse: Browse::default(),
         };
         sheet.walk(folder, ctx);
+        sheet.browse.begin(ctx, &wanted.dialog(folder));
         sheet
     }
 
@@ -127,14 +150,22 @@ impl OpenSheet {
         };
         ui.add(Label::new(RichText::new(title).heading().strong()).selectable(false));
         ui.add_space(GAP);
-        let field = TextEdit::singleline(&mut self.path).hint_text(hint).desired_width(f32::INFINITY);
-        let field = ui.add(field).accessible_name(strings::OPEN_PATH);
+        let mut browsed = Vec::new();
+        let field = ui.horizontal(|ui| {
+            let field = TextEdit::singleline(&mut self.path).hint_text(hint);
+            let field = ui.add(field.desired_width(ui.available_width() - BROWSE_WIDTH));
+            browsed = self.browse.show(ui, strings::OPEN_PATH, &self.wanted.dialog(&self.folder));
+            field.accessible_name(strings::OPEN_PATH)
+        });
+        let field = field.inner;
         if !std::mem::replace(&mut self.is_focused, true) {
             field.request_focus();
         }
         let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
         ui.add_space(GAP);
-        let wanted = self.folder_ui(ui).or_else(|| is_entered.then(|| self.folder.join(self.path.trim())));
+        let browsed = browsed.into_iter().next();
+        let wanted =
+            browsed.or(self.folder_ui(ui)).or_else(|| is_entered.then(|| self.folder.join(self.path.trim())));
         let message = if is_opening { Some(strings::OPENING) } else { self.failure.as_deref() };
         let color = if is_opening { t.text_weak } else { t.error };
         ui.add(Label::new(RichText::new(message.unwrap_or_default()).color(color)).wrap());
@@ -201,11 +232,7 @@ impl OpenSheet {
 
 /// Folders, then files of the wanted type, each by name. Hidden entries are left out.
 fn entries_of(folder: &Path, wanted: Wanted) -> Vec<Entry> {
-    let endings: &[&str] = match wanted {
-        Wanted::Projects => &[EXTENSION, "json"],
-        Wanted::Strokes => &TABLE_ENDINGS,
-        Wanted::Signal(_) => &SIGNAL_ENDINGS,
-    };
+    let endings = wanted.endings();
     // An unreadable folder shows no entries; a path can still be typed.
     let Ok(found) = std::fs::read_dir(folder) else { return Vec::new() };
     let entry = |entry: std::fs::DirEntry| {

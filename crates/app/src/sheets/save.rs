@@ -1,20 +1,22 @@
 //! Sheet that saves a library, figure, stroke, signal, texture or project. It asks before it replaces a file, and warns
 //! about textures that must not be redistributed.
 
+mod content;
+
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use egui::text::{CCursor, CCursorRange};
-use egui::{Button, Context, Id, Key, Label, RichText, TextEdit, Ui};
+use egui::{Button, Color32, Context, Id, Key, Label, Response, RichText, TextEdit, Ui};
 use shagreen_core::units::Contact;
-use shagreen_formats::atomic;
-use shagreen_formats::bounded_file::{self, FileKind};
-use shagreen_formats::library::{Library, LibraryError, Provenance, read_library, write_library};
-use shagreen_formats::project::{EXTENSION, Project, ProjectError, ProjectLibrary, read_project};
+use shagreen_formats::library::{Library, Provenance};
+use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary};
 
 use crate::command::{Command, FileCommand};
+use crate::look::browse::{Asked, Browse};
 use crate::look::sheet_frame::{is_left, sheet};
-use crate::look::theme::{GAP, tokens};
+use crate::look::theme::{GAP, Tokens, tokens};
+use crate::sheets::save::content::{Content, Outcome, write};
 use crate::state::background::in_background;
 use crate::state::document::CREATED_BY;
 use crate::strings::{build, document, import as strings, signal, stroke};
@@ -24,6 +26,9 @@ use crate::state::signal_file::{SIGNAL_RATE_HZ, SIGNAL_SECS, SignalFile, Soundin
 use crate::state::stroke_file::StrokeFile;
 use crate::state::texture_file::TextureFile;
 
+/// Width that the button for the dialog of the system needs, in points.
+const BROWSE_WIDTH: f32 = 92.0;
+
 /// State of the open sheet.
 pub struct SaveSheet {
     subject: Subject,
@@ -32,6 +37,7 @@ pub struct SaveSheet {
     is_focused: bool,
     /// Path that the project may now be written to.
     granted: Option<PathBuf>,
+    browse: Browse,
 }
 
 #[derive(Default)]
@@ -47,16 +53,6 @@ enum State {
     Failed(String),
 }
 
-/// Result of saving.
-#[derive(Clone, Debug, PartialEq, Eq)]
-enum Outcome {
-    Saved,
-    /// The project may be written.
-    MayBeWritten,
-    Exists,
-    Failed(String),
-}
-
 /// What the sheet saves.
 enum Subject {
     Library,
@@ -65,17 +61,6 @@ enum Subject {
     Signal(Box<SignalFile>),
     Texture(TextureFile),
     Project(Box<Project>),
-}
-
-/// Content of the file.
-enum Content {
-    Library(Box<Library>),
-    Figure(FigureFile),
-    Stroke(StrokeFile),
-    Signal(Box<SignalFile>),
-    Texture(TextureFile),
-    /// The document writes it once that is permitted.
-    Project,
 }
 
 impl SaveSheet {
@@ -111,7 +96,14 @@ impl SaveSheet {
     }
 
     fn of(subject: Subject, path: String) -> Self {
-        Self { subject, path, state: State::default(), is_focused: false, granted: None }
+        Self {
+            subject,
+            path,
+            state: State::default(),
+            is_focused: false,
+            granted: None,
+            browse: Browse::default(),
+        }
     }
 
     /// Folder in which a figure, stroke, signal or texture was saved.
@@ -168,14 +160,8 @@ impl SaveSheet {
         };
         ui.add(Label::new(RichText::new(title).heading().strong()).selectable(false));
         ui.add_space(GAP);
-        // The path must not change while saving, because the outcome refers to it.
         let is_saving = self.is_saving();
-        let field = TextEdit::singleline(&mut self.path).hint_text(hint).desired_width(f32::INFINITY);
-        let field = ui.add_enabled(!is_saving, field).accessible_name(field_name);
-        if !is_saving && !std::mem::replace(&mut self.is_focused, true) {
-            field.request_focus();
-            select_name(ui.ctx(), field.id, &self.path);
-        }
+        let field = self.path_ui(ui, title, field_name, hint);
         if field.changed() {
             self.state = State::Asking;
         }
@@ -190,7 +176,64 @@ impl SaveSheet {
         if let Some(warning) = Provenance::warning(&restricted) {
             ui.add(Label::new(RichText::new(warning).color(t.warning)).wrap());
         }
-        let (text, color) = match &self.state {
+        let (text, color) = self.message(library, &t);
+        ui.add(Label::new(RichText::new(text).color(color)).wrap());
+        ui.add_space(GAP);
+        ui.horizontal(|ui| {
+            let path = self.path.trim().to_owned();
+            let replaces = matches!(&self.state, State::Exists(exists) if *exists == path);
+            let can_save = !path.is_empty() && !is_saving && !matches!(self.state, State::Saved(_));
+            let save = Button::new(if replaces { strings::REPLACE } else { strings::SAVE });
+            let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) && !replaces;
+            if ui.add_enabled(can_save, save).clicked() || (can_save && is_entered) {
+                self.save(&path, library, replaces, ui.ctx());
+            }
+            let is_saved = matches!(self.state, State::Saved(_));
+            let close = Button::new(if is_saved { strings::CLOSE } else { strings::CANCEL });
+            if ui.add_enabled(!self.is_saving(), close).clicked() {
+                commands.push(Command::CloseSheet);
+            }
+        });
+        commands
+    }
+
+    /// Draws the path field, with the button for the dialog of the system.
+    fn path_ui(&mut self, ui: &mut Ui, title: &str, field_name: &str, hint: &str) -> Response {
+        // The path must not change while saving, because the outcome refers to it.
+        let is_saving = self.is_saving();
+        let field = ui.horizontal(|ui| {
+            let field = TextEdit::singleline(&mut self.path).hint_text(hint);
+            let field = field.desired_width(ui.available_width() - BROWSE_WIDTH);
+            let field = ui.add_enabled(!is_saving, field).accessible_name(field_name);
+            let present = self.subject.completed(self.path.trim());
+            let name = present.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let asked = Asked {
+                title,
+                kind: title,
+                endings: &[self.subject.ending()],
+                folder: present.parent(),
+                name: Some(&name),
+                several: false,
+            };
+            let chosen = ui.add_enabled_ui(!is_saving, |ui| self.browse.show(ui, field_name, &asked)).inner;
+            if let Some(chosen) = chosen.into_iter().next() {
+                // The dialog has asked before it gave the name of an existing file, and asks better.
+                self.path = chosen.display().to_string();
+                self.state = if chosen.exists() { State::Exists(self.path.clone()) } else { State::Asking };
+            }
+            field
+        });
+        let field = field.inner;
+        if !is_saving && !std::mem::replace(&mut self.is_focused, true) {
+            field.request_focus();
+            select_name(ui.ctx(), field.id, &self.path);
+        }
+        field
+    }
+
+    /// What would happen, or has happened.
+    fn message(&self, library: &Library, t: &Tokens) -> (String, Color32) {
+        match &self.state {
             State::Asking => match &self.subject {
                 Subject::Library => (strings::to_save(library.textures.len()), t.text_weak),
                 Subject::Figure(figure) => {
@@ -227,25 +270,7 @@ impl SaveSheet {
             State::Saving(_) | State::Granted => (strings::SAVING.to_owned(), t.text_weak),
             State::Saved(path) => (strings::saved(path), t.accent),
             State::Failed(reason) => (reason.clone(), t.error),
-        };
-        ui.add(Label::new(RichText::new(text).color(color)).wrap());
-        ui.add_space(GAP);
-        ui.horizontal(|ui| {
-            let path = self.path.trim().to_owned();
-            let replaces = matches!(&self.state, State::Exists(exists) if *exists == path);
-            let can_save = !path.is_empty() && !is_saving && !matches!(self.state, State::Saved(_));
-            let save = Button::new(if replaces { strings::REPLACE } else { strings::SAVE });
-            let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) && !replaces;
-            if ui.add_enabled(can_save, save).clicked() || (can_save && is_entered) {
-                self.save(&path, library, replaces, ui.ctx());
-            }
-            let is_saved = matches!(self.state, State::Saved(_));
-            let close = Button::new(if is_saved { strings::CLOSE } else { strings::CANCEL });
-            if ui.add_enabled(!self.is_saving(), close).clicked() {
-                commands.push(Command::CloseSheet);
-            }
-        });
-        commands
+        }
     }
 
     /// Saves in the background. An existing file is replaced only with `replaces`.
@@ -285,20 +310,25 @@ impl SaveSheet {
 }
 
 impl Subject {
-    /// Absolute path to write to. `~/` is replaced by the home folder, and a missing file name ending is added.
-    fn completed(&self, path: &str) -> PathBuf {
-        let path = match path.strip_prefix("~/").zip(std::env::home_dir()) {
-            Some((rest, home)) => home.join(rest),
-            None => PathBuf::from(path),
-        };
-        let ending = match self {
+    /// Usual ending of the file's name.
+    fn ending(&self) -> &'static str {
+        match self {
             Self::Library => "json",
             Self::Figure(figure) => figure.format.ending(),
             Self::Stroke(_) => "csv",
             Self::Signal(_) => "wav",
             Self::Texture(texture) => texture.format.ending(),
             Self::Project(_) => EXTENSION,
+        }
+    }
+
+    /// Absolute path to write to. `~/` is replaced by the home folder, and a missing file name ending is added.
+    fn completed(&self, path: &str) -> PathBuf {
+        let path = match path.strip_prefix("~/").zip(std::env::home_dir()) {
+            Some((rest, home)) => home.join(rest),
+            None => PathBuf::from(path),
         };
+        let ending = self.ending();
         let path =
             if path.extension().is_none() && !path.is_dir() { path.with_extension(ending) } else { path };
         std::path::absolute(&path).unwrap_or(path)
@@ -316,80 +346,9 @@ fn select_name(ctx: &Context, field: Id, path: &str) {
     state.store(ctx, field);
 }
 
-impl Content {
-    /// Writes the content to `path`; a project is left to its document.
-    fn put(&self, path: &Path) -> Result<Outcome, String> {
-        let bytes = match self {
-            Self::Library(library) => write_library(library),
-            Self::Figure(figure) => figure.bytes()?,
-            Self::Stroke(file) => file.bytes(),
-            Self::Texture(texture) => texture.bytes()?,
-            Self::Signal(file) => return file.write(path).map(|()| Outcome::Saved),
-            Self::Project => return Ok(Outcome::MayBeWritten),
-        };
-        atomic::write(path, &bytes).map(|()| Outcome::Saved).map_err(|error| error.to_string())
-    }
-
-    /// Why a file with these bytes must not be replaced by this content. `None` if it is of the same kind, of any
-    /// version and even with errors in it.
-    fn refusal(&self, path: &Path, bytes: &[u8]) -> Option<String> {
-        match self {
-            Self::Library(_) => match read_library(bytes) {
-                Err(error @ (LibraryError::Format { .. } | LibraryError::Damaged { texture: None, .. })) => {
-                    Some(strings::no_library(&error.to_string()))
-                }
-                _ => None,
-            },
-            Self::Figure(figure) => (!figure.is_like(bytes)).then(|| build::no_figure(figure.format.word())),
-            Self::Stroke(_) => (!StrokeFile::is_like(bytes)).then(|| stroke::NO_STROKE.to_owned()),
-            Self::Signal(_) => (!SignalFile::may_replace(path, bytes)).then(|| signal::NO_SIGNAL.to_owned()),
-            Self::Texture(texture) => {
-                (!texture.is_like(bytes)).then(|| signal::no_texture(texture.format.name()))
-            }
-            Self::Project => is_project(bytes).err().map(|reason| document::no_project(&reason)),
-        }
-    }
-}
-
-fn write(path: &Path, content: &Content, replaces: bool) -> Outcome {
-    if path.symlink_metadata().is_ok() {
-        // The file may have changed since the user was asked.
-        match refusal(path, content) {
-            Some(reason) => return Outcome::Failed(reason),
-            None if !replaces => return Outcome::Exists,
-            None => {}
-        }
-    }
-    content.put(path).unwrap_or_else(Outcome::Failed)
-}
-
-/// Whether bytes are a project, of any version and even with errors in it.
-fn is_project(bytes: &[u8]) -> Result<(), String> {
-    let nothing = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
-    match read_project(bytes, Path::new(""), &nothing) {
-        Err(error @ (ProjectError::Format { .. } | ProjectError::Damaged { .. })) => Err(error.to_string()),
-        _ => Ok(()),
-    }
-}
-
-/// Why the file at this path must not be replaced.
-fn refusal(path: &Path, content: &Content) -> Option<String> {
-    let bytes = match path.metadata() {
-        // Reading a pipe or device would never end.
-        Ok(metadata) if !metadata.is_file() => return Some(document::NO_FILE.to_owned()),
-        Ok(_) => bounded_file::read(path, FileKind::Document),
-        Err(error) => Err(error),
-    };
-    match bytes {
-        Err(error) => Some(strings::cannot_be_checked(&error.to_string())),
-        Ok(bytes) => content.refusal(path, &bytes),
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Content, Outcome, Subject, write};
-    use shagreen_formats::library::{Library, read_library};
+    use super::Subject;
 
     #[test]
     fn a_path_is_completed() {
@@ -406,34 +365,5 @@ mod tests {
                 && at_home.ends_with("mine.json")
                 && !at_home.display().to_string().contains('~')
         );
-    }
-
-    #[test]
-    fn only_a_library_is_replaced_and_only_when_that_was_said() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("mine.json");
-        let library =
-            |name: &str| Content::Library(Box::new(Library { name: name.to_owned(), ..Library::default() }));
-        let name = || read_library(&std::fs::read(&path).unwrap()).unwrap().value.name;
-        assert_eq!(write(&path, &library("one"), false), Outcome::Saved);
-        assert_eq!(write(&path, &library("two"), false), Outcome::Exists);
-        assert_eq!(name(), "one");
-        assert_eq!(write(&path, &library("two"), true), Outcome::Saved);
-        assert_eq!(name(), "two");
-        assert!(
-            matches!(write(&path, &Content::Project, true), Outcome::Failed(_)),
-            "a library is no project"
-        );
-        std::fs::write(&path, "something else").unwrap();
-        for replaces in [false, true] {
-            assert!(matches!(write(&path, &library("three"), replaces), Outcome::Failed(_)), "{replaces}");
-            assert!(matches!(write(folder.path(), &library("three"), replaces), Outcome::Failed(_)));
-        }
-        assert_eq!(std::fs::read(&path).unwrap(), b"something else");
-        let newer = br#"{ "format": "shagreen-library", "version": "99.0" }"#;
-        std::fs::write(&path, newer).unwrap();
-        assert_eq!(write(&path, &library("three"), false), Outcome::Exists);
-        let nowhere = folder.path().join("no/such/folder.json");
-        assert!(matches!(write(&nowhere, &library("three"), true), Outcome::Failed(_)));
     }
 }

@@ -21,6 +21,15 @@ use crate::strings::edits as strings;
 pub enum Edit {
     /// Moves the point to a position in the space and ends solo.
     MovePoint(SpacePoint),
+    /// Moves the point onto a texture of the library and solos the texture until the point moves again.
+    TakeTexture {
+        /// Id of the texture.
+        id: String,
+        /// Name of the texture.
+        name: String,
+        /// Its position.
+        at: SpacePoint,
+    },
     /// Sets the interpolation mode.
     SetMode(Mode),
     /// Pins or unpins a texture. The field passes through pinned textures.
@@ -140,6 +149,7 @@ impl Edit {
         let name = &project.texture().name;
         match self {
             Self::MovePoint(_) => strings::moved(name).into(),
+            Self::TakeTexture { name, .. } => strings::taken(name).into(),
             Self::SetMode(_) => strings::CHANGE_BLEND.into(),
             Self::Lock { name, is_locked, .. } => crate::strings::lock(name, *is_locked).into(),
             Self::SetOutside(Outside::Clamped) => strings::STAY_WITHIN.into(),
@@ -209,6 +219,10 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         Edit::MovePoint(point) => {
             project.solo = None;
             change(&mut project, |texture| texture.at = point);
+        }
+        Edit::TakeTexture { id, at, .. } => {
+            project.solo = Some(id);
+            change(&mut project, |texture| texture.at = at);
         }
         Edit::SetMode(mode) => change(&mut project, |texture| texture.blend.mode = mode),
         Edit::Lock { id, is_locked, .. } => change(&mut project, |texture| {

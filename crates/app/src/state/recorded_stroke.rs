@@ -1,6 +1,7 @@
 //! Stroke recording that the automatic stroke can repeat: recorded on the pad, or read from a CSV table.
 
 use std::io::Read as _;
+use std::path::Path;
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use anyhow::{Context as _, bail};
@@ -160,7 +161,14 @@ fn usual_contact(track: &Track) -> Contact {
 
 /// Whether a dropped file is a stroke, according to its ending and the column names. Only its beginning is read.
 pub(crate) fn is_stroke_file(file: &DroppedFileHandle) -> bool {
-    let path = file.path();
+    // A file without a path in the file system is dropped with its bytes.
+    is_stroke_path(file.path(), || {
+        file.bytes().is_ok_and(|bytes| is_stroke_table(&bytes[..bytes.len().min(HEAD_BYTES as usize)]))
+    })
+}
+
+/// Whether the file at `path` is a stroke recording; `otherwise` answers for a file that is not there.
+pub(crate) fn is_stroke_path(path: &Path, otherwise: impl FnOnce() -> bool) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     if !ending.is_some_and(|ending| TABLE_ENDINGS.contains(&ending.as_str())) {
         return false;
@@ -174,8 +182,7 @@ pub(crate) fn is_stroke_file(file: &DroppedFileHandle) -> bool {
         let read = bounded_file::open(path).and_then(|from| from.take(HEAD_BYTES).read_to_end(&mut head));
         return read.is_ok() && is_stroke_table(&head);
     }
-    // A file without a path in the file system is dropped with its bytes.
-    file.bytes().is_ok_and(|bytes| is_stroke_table(&bytes[..bytes.len().min(HEAD_BYTES as usize)]))
+    otherwise()
 }
 
 /// Stroke recording, and warnings about it.

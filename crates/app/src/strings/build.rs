@@ -10,6 +10,8 @@ use shagreen_core::space::space_build::{FeatureKind, PlacedBy, Step};
 
 // Inputs.
 pub const MADE_OF: &str = "Inputs";
+/// Kind of file in the dialog of the system.
+pub const TABLES: &str = "Tables";
 pub const SORTING: &str = "Sorting";
 pub const RATINGS: &str = "Ratings";
 pub const VOTES: &str = "Relevance votes";

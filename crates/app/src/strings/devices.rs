@@ -44,6 +44,8 @@ pub const LOAD_HELP: &str =
 pub const MEASURED_LOAD: &str = "Load during measurement";
 pub const FULL_SCALE: &str = "Acceleration at full scale";
 pub const FULL_SCALE_HELP: &str = "Acceleration that drives the output to full scale, in m/s²";
+/// Kind of file in the dialog of the system.
+pub const PROFILES: &str = "Actuator profiles";
 pub const PROFILE_PATH: &str = "Profile file";
 pub const PROFILE_HINT: &str = "profile.toml from shagreen calibrate";
 pub const OPEN_PROFILE: &str = "Open";

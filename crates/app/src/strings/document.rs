@@ -23,6 +23,8 @@ pub const QUIT: &str = "Quit";
 
 // Opening.
 pub const OPEN_TITLE: &str = "Open a project or library";
+pub const OPEN_KIND: &str = "Projects and libraries";
+/// Accessible name of the path field.
 pub const OPEN_PATH: &str = "File to open";
 pub const OPEN_HINT: &str = "woods.shagreen or library.json";
 pub const OPEN_NOW: &str = "Open";

@@ -88,3 +88,8 @@ pub fn opened(library: &str) -> String {
 pub fn starred(name: &str, is_starred: bool) -> String {
     if is_starred { format!("Star {name}") } else { format!("Unstar {name}") }
 }
+
+/// Edit: the point was moved onto this texture.
+pub fn taken(name: &str) -> String {
+    format!("Choose {name}")
+}

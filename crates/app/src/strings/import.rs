@@ -5,6 +5,8 @@ use shagreen_core::units::Contact;
 
 // Files.
 pub const TITLE: &str = "Import";
+/// Kind of file in the dialog of the system.
+pub const KIND: &str = "Recordings, models, libraries and pictures";
 pub const DROP_HERE: &str = "Drop recordings, photos, models or a library";
 pub const DROP_KINDS: &str = "Recordings (CSV, TXT, TSV, WAV) · photos (JPEG, PNG) · HaTT models (XML) · a Shagreen library (JSON) · a column map (map.toml) · a folder of these";
 pub const PATHS: &str = "Paths of files or folders";

@@ -66,6 +66,8 @@ pub fn path_of(slot: Slot) -> String {
 }
 
 pub const OPEN_TITLE: &str = "Open a signal";
+/// Kind of file in the dialog of the system.
+pub const OPEN_KIND: &str = "Signals, surface profiles and pictures";
 pub const OPEN_PATH_HINT: &str = "Path of a .wav, .csv, .png or .jpg file…";
 
 /// Accessible name of the button that removes signal A or B.

@@ -23,6 +23,8 @@ pub const EXISTS: &str = "A stroke file exists at this path. Replace it, or choo
 pub const NO_STROKE: &str =
     "The file at this path is not a stroke table and is not replaced. Choose another path.";
 pub const OPEN_TITLE: &str = "Open a stroke";
+/// Kind of file in the dialog of the system.
+pub const OPEN_KIND: &str = "Stroke recordings";
 pub const OPEN_HINT: &str = "stroke.csv";
 pub const BROKE_OFF: &str = "Reading the stroke stopped unexpectedly; try again";
 pub const NEVER_TOUCHES: &str = "the tip never touches the surface in this stroke; choose another file";

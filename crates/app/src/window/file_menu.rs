@@ -99,13 +99,16 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
         }
         commands.extend(entry(ui, strings::QUIT, &Command::File(FileCommand::Quit)).asked);
     });
-    let area = menu.response.rect;
-    let dot = if files.document.is_changed() { " •" } else { "" };
-    let name = RichText::new(format!("{}{dot}", files.document.name())).strong();
-    let path = files.document.path().map_or(strings::UNTITLED.to_owned(), |path| path.display().to_string());
-    let help = strings::kept_at(&path, files.document.is_changed());
+    MenuOutcome { commands, area: menu.response.rect }
+}
+
+/// Draws the name of the project, with a dot for unsaved changes. It is cut off where there is no room.
+pub(crate) fn project_name_ui(ui: &mut Ui, document: &Document) {
+    let dot = if document.is_changed() { " •" } else { "" };
+    let name = RichText::new(format!("{}{dot}", document.name())).strong();
+    let path = document.path().map_or(strings::UNTITLED.to_owned(), |path| path.display().to_string());
+    let help = strings::kept_at(&path, document.is_changed());
     ui.add(Label::new(name).truncate().selectable(false)).on_hover_text(help);
-    MenuOutcome { commands, area }
 }
 
 struct Entry {

@@ -17,6 +17,7 @@ use super::Window;
 use crate::command::{Command, FileCommand};
 use crate::panel::Panel;
 use crate::sheets::Sheet;
+use crate::sheets::command_for;
 use crate::sheets::gallery_sheet::GallerySheet;
 use crate::sheets::open_sheet::OpenSheet;
 use crate::sheets::save::SaveSheet;
@@ -60,6 +61,11 @@ impl Window {
             FileCommand::OpenGallery => self.sheet = Sheet::Gallery(GallerySheet::new()),
             FileCommand::BeginFromGallery(chosen) => self.leave(Leave::Gallery(chosen), ctx),
             FileCommand::Open(path) => {
+                if let Some(command) = command_for(&path) {
+                    self.sheet = Sheet::Closed;
+                    self.carry_out(command, ctx);
+                    return;
+                }
                 (self.files.is_beginning, self.files.reloading) = (false, None);
                 self.files.document.open(path, ctx);
             }

@@ -6,7 +6,7 @@ use super::Window;
 use crate::command::Command;
 use crate::look::theme::tokens;
 use crate::strings;
-use crate::window::file_menu::{MenuState, file_menu};
+use crate::window::file_menu::{MenuState, file_menu, project_name_ui};
 use crate::workspace::Workspace;
 
 impl Window {
@@ -77,6 +77,11 @@ impl Window {
                 if mute.on_hover_text(strings::MUTE_HELP).clicked() {
                     commands.push(Command::ToggleMute);
                 }
+                // In the middle, so that a long name moves no button.
+                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                    ui.add_space(10.0);
+                    project_name_ui(ui, &self.files.document);
+                });
             });
         });
         commands

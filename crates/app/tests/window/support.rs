@@ -41,6 +41,7 @@ pub(crate) fn begin(project: Project) -> Begin {
     Begin {
         project,
         file: None,
+        take: None,
         output: OutputChoice::Id("null".to_owned()),
         keeping: StoragePaths::default(),
     }

@@ -15,7 +15,7 @@ use rtrb::{Consumer, RingBuffer};
 
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::hid::identity::HidPen;
-use crate::hid::live::reader::{Command, Reader};
+use crate::hid::live::reader::{Command, Doorbell, Reader};
 use crate::hid::tracker::{TrackedSample, TrackerOptions};
 use crate::live::LiveInput;
 use crate::pressure::PressureMap;
@@ -169,6 +169,11 @@ impl PenThread {
     /// ends a stroke in progress; the same size does not.
     pub fn set_size_m(&self, size_m: Option<[f64; 2]>) {
         self.command(Command::Size(size_m));
+    }
+
+    /// Calls `ring` after each report and notice from now on, on the pen's thread: it must be quick.
+    pub fn set_doorbell(&self, ring: impl Fn() + Send + 'static) {
+        self.command(Command::Doorbell(Doorbell(Box::new(ring))));
     }
 
     /// Lifts the tip and ends the thread, which takes a few hundredths of a second. Returns the engine's live input for

@@ -2,10 +2,11 @@
 
 use egui::{Color32, Popup, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 use shagreen_core::space::SpacePoint;
+use shagreen_formats::library::TextureEntry;
 
 use super::path_tool::{PathTool, added};
 use super::site_labels::{Around, site_labels};
-use super::{POINT_SIZE, SITE_RADIUS, move_to};
+use super::{POINT_SIZE, SITE_RADIUS};
 use crate::author::locks::lock_mark;
 use crate::author::texture_menu::texture_menu;
 use crate::author::texture_picture::place_in_words;
@@ -13,6 +14,7 @@ use crate::command::Command;
 use crate::look::axes::Axes;
 use crate::look::theme::Tokens;
 use crate::panel::Panel;
+use crate::state::edit::Edit;
 use crate::strings::{self};
 
 /// Maximum number of textures shown as pictures; if there are more, each texture is a dot.
@@ -45,7 +47,7 @@ pub(super) fn sites_ui(
         let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::go_to(&entry.name)));
         if response.clicked() {
-            let added = if tool.is_on { added(panel, *at) } else { Some(move_to(*at)) };
+            let added = if tool.is_on { added(panel, *at) } else { Some(take(entry, *at)) };
             commands.extend(added);
         }
         site(ui, panel, *texture, pos, radius, &response, t);
@@ -66,6 +68,11 @@ pub(super) fn sites_ui(
     let point = Rect::from_center_size(axes.ui_from_space(panel.project.texture().at), POINT_SIZE);
     site_labels(ui, panel, &named, radius, &Around { words, point, on_map }, pointed, t);
     commands
+}
+
+/// Command that chooses a texture of the library: exactly this one, not the smooth field at its position.
+fn take(entry: &TextureEntry, at: SpacePoint) -> Command {
+    Command::Edit(Edit::TakeTexture { id: entry.id.clone(), name: entry.name.clone(), at })
 }
 
 /// Tooltip of a texture: its name, position and source, and how the field treats it there.

@@ -11,6 +11,7 @@ use shagreen_device::synth::equalizer::Biquad;
 use shagreen_formats::actuator_toml::read_actuator;
 
 use super::{DevicesSheet, heading, note, row, warning};
+use crate::look::browse::Asked;
 use crate::look::plot::fixed;
 use crate::look::theme::tokens;
 use crate::state::background::in_background;
@@ -105,9 +106,22 @@ impl DevicesSheet {
     fn file_ui(&mut self, ui: &mut Ui) {
         let field = TextEdit::singleline(&mut self.profile_path).hint_text(strings::PROFILE_HINT);
         ui.add(field.desired_width(200.0)).accessible_name(strings::PROFILE_PATH);
+        let asked = Asked {
+            title: strings::ACTUATOR,
+            kind: strings::PROFILES,
+            endings: &["toml"],
+            folder: None,
+            name: None,
+            several: false,
+        };
+        let chosen = self.browse.show(ui, strings::PROFILE_PATH, &asked).into_iter().next();
+        let is_chosen = chosen.is_some();
+        if let Some(chosen) = chosen {
+            self.profile_path = chosen.display().to_string();
+        }
         let path = self.profile_path.trim().to_owned();
         let can_read = !path.is_empty() && self.reading.is_none();
-        if ui.add_enabled(can_read, Button::new(strings::OPEN_PROFILE)).clicked() {
+        if ui.add_enabled(can_read, Button::new(strings::OPEN_PROFILE)).clicked() || is_chosen {
             let read = move || {
                 let bytes = Source::Path(path.clone().into()).bytes().map_err(anyhow::Error::msg);
                 let actuator = bytes.and_then(|bytes| Ok(read_actuator(&bytes)?));

@@ -2,7 +2,11 @@
 
 use egui::{Align, Button, Context, Key, Label, Layout, RichText, TextEdit, Ui, UiBuilder, vec2};
 
+use shagreen_studio::open::OTHER_ENDINGS;
+
 use crate::command::Command;
+use crate::command::prompt::PromptCommand;
+use crate::look::browse::{Asked, Browse};
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::sheets::import::batch::{Batch, Content, State};
@@ -11,6 +15,7 @@ use crate::sheets::import::files_ui::files_ui;
 use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::model_ui::model_ui;
 use crate::sheets::import::questions_ui::sentence;
+use crate::sheets::is_photo;
 use crate::state::edit::Edit;
 use crate::state::source::{Source, paths_in};
 use crate::strings::import as strings;
@@ -29,6 +34,8 @@ pub struct ImportSheet {
     is_fresh: bool,
     /// Whether recordings get estimated positions.
     are_placed: bool,
+    photos: Vec<Source>,
+    browse: Browse,
 }
 
 impl ImportSheet {
@@ -41,6 +48,8 @@ impl ImportSheet {
             for_all: true,
             is_fresh: true,
             are_placed: false,
+            photos: Vec::new(),
+            browse: Browse::default(),
         }
     }
 
@@ -54,6 +63,14 @@ impl ImportSheet {
         if !sources.is_empty() {
             self.batch.load(sources);
         }
+    }
+
+    /// Reads files that the user typed or chose. Photos become a prompt, as when they are dropped.
+    fn take(&mut self, sources: Vec<Source>) {
+        let (photos, others): (Vec<_>, Vec<_>) =
+            sources.into_iter().partition(|source| is_photo(source.path()));
+        self.photos.extend(photos);
+        self.load(others);
     }
 
     /// Files, and the textures made from them.
@@ -74,6 +91,10 @@ impl ImportSheet {
             self.content_ui(ui, around)
         });
         let mut commands = shown.inner;
+        if !self.photos.is_empty() {
+            commands.push(Command::CloseSheet);
+            commands.push(Command::Prompt(PromptCommand::Look(std::mem::take(&mut self.photos))));
+        }
         if !shown.any_popup_open && is_left(ctx) {
             commands.push(Command::CloseSheet);
         }
@@ -106,6 +127,16 @@ impl ImportSheet {
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let is_wanted =
                     ui.add_enabled(!self.paths.trim().is_empty(), Button::new(strings::READ)).clicked();
+                let asked = Asked {
+                    title: strings::TITLE,
+                    kind: strings::KIND,
+                    endings: &OTHER_ENDINGS,
+                    folder: None,
+                    name: None,
+                    several: true,
+                };
+                let chosen = self.browse.show(ui, strings::PATHS, &asked);
+                self.take(chosen.into_iter().map(Source::Path).collect());
                 // Displayed as one line, but pasted lines stay separate.
                 let field = TextEdit::singleline(&mut self.paths)
                     .hint_text(strings::PATHS_HINT)
@@ -120,7 +151,7 @@ impl ImportSheet {
                 let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
                 if is_wanted || is_entered {
                     let paths = std::mem::take(&mut self.paths);
-                    self.load(paths_in(&paths));
+                    self.take(paths_in(&paths));
                 }
                 if is_entered {
                     field.request_focus();

@@ -16,12 +16,22 @@ use crate::hid::tracker::{PenTracker, TrackedSample};
 use crate::live::LiveInput;
 use crate::pressure::PressureMap;
 
+/// Function to call when there is something new.
+pub(super) struct Doorbell(pub(super) Box<dyn Fn() + Send>);
+
+impl std::fmt::Debug for Doorbell {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Doorbell")
+    }
+}
+
 /// Command from the handle. When the handle is dropped, the thread ends.
 #[derive(Debug)]
 pub(super) enum Command {
     Live(LiveInput),
     Map(PressureMap),
     Size(Option<[f64; 2]>),
+    Doorbell(Doorbell),
 }
 
 /// An open pen.
@@ -43,6 +53,7 @@ pub(super) struct Reader {
     buffer: Vec<u8>,
     started: Instant,
     last_reason: Option<DeviceError>,
+    doorbell: Option<Doorbell>,
 }
 
 impl Reader {
@@ -65,6 +76,7 @@ impl Reader {
             buffer: vec![0; MAX_REPORT_BYTES as usize + 1],
             started: Instant::now(),
             last_reason: None,
+            doorbell: None,
         }
     }
 
@@ -105,6 +117,7 @@ impl Reader {
                     open.tracker.set_pressure_map(map);
                 }
             }
+            Command::Doorbell(doorbell) => self.doorbell = Some(doorbell),
             Command::Size(size_m) if size_m == self.options.size_m => {}
             Command::Size(size_m) => {
                 self.options.size_m = size_m;
@@ -167,6 +180,7 @@ impl Reader {
                 if self.moments.push(moment).is_err() {
                     self.shared.n_dropped.fetch_add(1, Ordering::Relaxed);
                 }
+                self.ring();
             }
             Err(error) => {
                 self.lift();
@@ -207,6 +221,13 @@ impl Reader {
 
     fn tell(&mut self, notice: PenNotice) {
         self.notices.try_send(notice).ok(); // Full: the notices are not read.
+        self.ring();
+    }
+
+    fn ring(&self) {
+        if let Some(Doorbell(ring)) = &self.doorbell {
+            ring();
+        }
     }
 }
 

@@ -1,4 +1,5 @@
 use std::collections::VecDeque;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
@@ -224,11 +225,24 @@ fn a_refused_pen_is_told_once_and_read_when_it_is_allowed() {
     let machine = Machine::new(&["a"]);
     machine.0.lock().unwrap().is_denied = true;
     let thread = PenThread::start(machine.clone(), options("a"), None).unwrap();
+    let rung = Arc::new(AtomicU64::new(0));
+    let ring = Arc::clone(&rung);
+    thread.set_doorbell(move || {
+        ring.fetch_add(1, Ordering::Relaxed);
+    });
     assert!(matches!(notice(&thread), PenNotice::Waiting(error) if error.kind() == DeviceErrorKind::Denied));
     std::thread::sleep(Duration::from_millis(1200));
     assert_eq!(thread.next_notice(), None);
     machine.0.lock().unwrap().is_denied = false;
     assert!(matches!(notice(&thread), PenNotice::Connected { .. }));
+    machine.send(report(1000, 1000, 0, HOVER));
+    wait_for(&thread, 1);
+    // At least the second notice and the report; the first notice may come before the bell.
+    let begun = Instant::now();
+    while rung.load(Ordering::Relaxed) < 2 {
+        assert!(begun.elapsed() < Duration::from_secs(5), "the bell did not ring");
+        std::thread::yield_now();
+    }
 }
 
 #[test]
