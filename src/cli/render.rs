@@ -9,12 +9,15 @@ use shagreen_core::space::LabelSource;
 use shagreen_core::texture::render::Hand;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::Library;
-use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav};
-use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
+use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav_as};
+use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
+use shagreen_studio::render::{SampleFormat, looped, n_for_loop, render_along, render_mixture};
+use shagreen_studio::report::Reporter as _;
 
 use crate::cli::motion::{Motion, MotionArgs, motion};
 use crate::cli::output::{self, Printed, Progress};
 use crate::cli::target::SoundArgs;
+use crate::cli::words::words;
 use shagreen_studio::replace::{refuse_foreign_signal, refuse_inputs};
 use shagreen_studio::sound::Sound;
 use shagreen_studio::tap_transients::add_tap_transients;
@@ -33,6 +36,16 @@ pub(crate) struct Args {
     /// Random seed of the noise; the same seed gives the same samples.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
+    /// Type of the samples: 32-bit floats, or integers of 24 or 16 bits.
+    #[arg(long, value_name = "BITS", default_value = "32", value_parser = words(SampleType::ALL, bits_word))]
+    bits: SampleType,
+    /// Scale the signal so that its peak is 1 dB below full scale, for players that clip; the sidecar states the
+    /// acceleration at full scale. Integers are always scaled.
+    #[arg(long)]
+    normalize: bool,
+    /// Make a loop: the end goes on into the beginning without a click.
+    #[arg(long = "loop", conflicts_with = "stroke")]
+    loops: bool,
     /// WAV file to write; its sidecar has the same name with .json.
     #[arg(short, long, value_name = "OUT.wav")]
     out: PathBuf,
@@ -70,7 +83,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let wide = samples.iter().map(|sample| f64::from(*sample));
     let peak = wide.clone().fold(0.0, |peak: f64, sample| peak.max(sample.abs()));
     let rms = (wide.map(|sample| sample * sample).sum::<f64>() / samples.len().max(1) as f64).sqrt();
-    write_wav(&args.out, &samples, &sidecar)?;
+    let level = if args.normalize { Level::Peak } else { Level::Kept };
+    let encoding = WavEncoding { samples: args.bits, level };
+    let full_scale = encoding.full_scale(&samples);
+    write_wav_as(&args.out, &samples, &sidecar, encoding)?;
+    if full_scale == 1.0 && peak > 1.0 {
+        Printed.note("players clip what exceeds 1 m/s²; --normalize scales the signal for them");
+    }
     output::print(
         args.json,
         &json!({
@@ -78,6 +97,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "sidecar": beside.display().to_string(),
             "rms": rms,
             "peak": peak,
+            "full_scale": full_scale,
             "rate_hz": rate_hz,
             "seconds": seconds,
             "parents": chosen.parents_json(&library),
@@ -97,6 +117,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         },
     );
     Ok(())
+}
+
+fn bits_word(of: SampleType) -> &'static str {
+    match of {
+        SampleType::Float32 => "32",
+        SampleType::Pcm24 => "24",
+        SampleType::Pcm16 => "16",
+    }
 }
 
 /// Only WAV files are written; another ending would promise another format.
@@ -147,14 +175,18 @@ fn samples(
 ) -> anyhow::Result<Vec<f32>> {
     let mut hand =
         Watched { motion, progress: Progress::new("ms rendered", output::in_ms(motion.seconds())) };
-    let format = SampleFormat { rate: Hertz(f64::from(rate_hz)), seconds: motion.seconds(), seed: args.seed };
-    if let Some(path) = &chosen.path {
-        return render_along(path, format, &mut hand)
-            .context("the path cannot be rendered with these options");
-    }
-    let voices = chosen.planes(library, &Printed)?;
-    render_mixture(&voices, chosen.mixing, format, &mut hand)
-        .context("the texture cannot be rendered with these options")
+    let rate = Hertz(f64::from(rate_hz));
+    let n = (motion.seconds() * rate.0).round() as usize;
+    let seconds = if args.loops { n_for_loop(n, rate) as f64 / rate.0 } else { motion.seconds() };
+    let format = SampleFormat { rate, seconds, seed: args.seed };
+    let samples = if let Some(path) = &chosen.path {
+        render_along(path, format, &mut hand).context("the path cannot be rendered with these options")?
+    } else {
+        let voices = chosen.planes(library, &Printed)?;
+        render_mixture(&voices, chosen.mixing, format, &mut hand)
+            .context("the texture cannot be rendered with these options")?
+    };
+    Ok(if args.loops { looped(samples, n, rate) } else { samples })
 }
 
 fn sidecar(args: &Args, library: &Library, chosen: &Sound, motion: &Motion, rate_hz: u32) -> SidecarV1 {

@@ -24,6 +24,7 @@ pub mod rig;
 pub(crate) mod rig_memory;
 pub mod scope_buffer;
 pub(crate) mod settings_file;
+pub(crate) mod signal_export;
 pub(crate) mod signal_file;
 pub(crate) mod source;
 pub(crate) mod stroke_file;

@@ -73,3 +73,4 @@ pub mod svc;
 pub mod text_limits;
 pub mod thresholds;
 pub mod wav;
+pub mod wav_encoding;

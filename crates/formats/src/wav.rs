@@ -1,16 +1,15 @@
-//! Signals as 32-bit float WAV files with a sidecar file that states their units.
+//! Signals as WAV files with a sidecar file that states their units.
 //!
 //! A WAV file has no units, so `out.json` ([`SidecarV1`]) lies next to `out.wav`. Either both are written or neither.
 
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
-use hound::{SampleFormat, WavSpec, WavWriter};
 use serde::{Deserialize, Serialize};
 
 use crate::atomic::{self, WriteError};
 use crate::layout;
 use crate::library::Library;
+use crate::wav_encoding::{SampleType, WavEncoding, pack};
 
 /// Value of the `format` field of a sidecar.
 pub const FORMAT: &str = "shagreen-signal";
@@ -20,7 +19,7 @@ pub const VERSION: &str = "1.0";
 pub const UNITS: &str = "m/s^2";
 
 /// Bytes of a WAV file before its first sample.
-const HEADER_BYTES: u32 = 68;
+pub(crate) const HEADER_BYTES: u32 = 68;
 /// Maximum number of samples in a WAV file, which counts its bytes in 32 bits.
 pub const MAX_SAMPLES: u64 = ((u32::MAX - HEADER_BYTES) / 4) as u64;
 
@@ -179,18 +178,32 @@ pub fn check_length(n_samples: u64) -> Result<(), WavWriteError> {
     if n_samples > MAX_SAMPLES { Err(WavWriteError::TooLong { n_samples }) } else { Ok(()) }
 }
 
-/// Writes samples and their sidecar; either both or neither.
+/// Writes samples in m/s² as 32-bit floats, and their sidecar; either both or neither.
 ///
 /// # Errors
 /// See [`WavWriteError`]; existing files are then unchanged.
 pub fn write_wav(path: &Path, samples: &[f32], sidecar: &SidecarV1) -> Result<(), WavWriteError> {
+    write_wav_as(path, samples, sidecar, WavEncoding::default())
+}
+
+/// As [`write_wav`], in another encoding. The `full_scale` of the sidecar is set to the acceleration of a sample of 1.
+///
+/// # Errors
+/// See [`WavWriteError`]; existing files are then unchanged.
+pub fn write_wav_as(
+    path: &Path,
+    samples: &[f32],
+    sidecar: &SidecarV1,
+    encoding: WavEncoding,
+) -> Result<(), WavWriteError> {
     let beside = sidecar_path(path);
     if beside == path {
         return Err(WavWriteError::Name { path: path.to_path_buf() });
     }
-    let wav = pack(samples, sidecar.rate_hz)?;
+    let full_scale = encoding.full_scale(samples);
+    let wav = pack(samples, full_scale, sidecar.rate_hz, encoding.samples)?;
     // One line per field, and one per row of the trace.
-    let json = layout::to_bytes(sidecar, 2);
+    let json = layout::to_bytes(&SidecarV1 { full_scale, ..sidecar.clone() }, 2);
     atomic::write_all(&[(path, &wav), (&beside, &json)])?;
     Ok(())
 }
@@ -200,34 +213,17 @@ pub fn write_wav(path: &Path, samples: &[f32], sidecar: &SidecarV1) -> Result<()
 /// # Errors
 /// See [`WavWriteError`]; an existing file is then unchanged.
 pub fn write_samples(path: &Path, samples: &[f32], rate_hz: u32) -> Result<(), WavWriteError> {
-    atomic::write(path, &pack(samples, rate_hz)?)?;
+    atomic::write(path, &pack(samples, 1.0, rate_hz, SampleType::Float32)?)?;
     Ok(())
-}
-
-/// Encodes samples as a 32-bit float WAV file.
-fn pack(samples: &[f32], rate_hz: u32) -> Result<Vec<u8>, WavWriteError> {
-    check_length(samples.len() as u64)?;
-    let spec = WavSpec {
-        channels: 1,
-        sample_rate: rate_hz,
-        bits_per_sample: 32,
-        sample_format: SampleFormat::Float,
-    };
-    let mut bytes = Cursor::new(Vec::with_capacity(HEADER_BYTES as usize + size_of_val(samples)));
-    let mut writer = WavWriter::new(&mut bytes, spec)?;
-    for sample in samples {
-        writer.write_sample(*sample)?;
-    }
-    writer.finalize()?;
-    Ok(bytes.into_inner())
 }
 
 #[cfg(test)]
 mod tests {
     use super::{
         FORMAT, HEADER_BYTES, MAX_SAMPLES, ParentV1, SidecarV1, TraceV1, UNITS, VERSION, WavWriteError,
-        check_length, pack, sidecar_path, write_wav,
+        check_length, sidecar_path, write_wav, write_wav_as,
     };
+    use crate::wav_encoding::{Level, SampleType, WavEncoding, pack};
     use std::fs;
 
     fn sidecar() -> SidecarV1 {
@@ -268,6 +264,47 @@ mod tests {
         assert_eq!(beside, sidecar());
     }
 
+    /// What a player plays is below full scale, and the sidecar gives the acceleration back.
+    #[test]
+    fn peaks_fit_every_player_and_the_sidecar_undoes_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out.wav");
+        let given = [0.25, -7.5, 3.0, 0.0];
+        for (samples, bits, step) in [
+            (SampleType::Float32, 32, 1e-7),
+            (SampleType::Pcm24, 24, 1.2e-7),
+            (SampleType::Pcm16, 16, 3.1e-5),
+        ] {
+            write_wav_as(&path, &given, &sidecar(), WavEncoding { samples, level: Level::Peak }).unwrap();
+            let beside: SidecarV1 = serde_json::from_slice(&fs::read(sidecar_path(&path)).unwrap()).unwrap();
+            let mut reader = hound::WavReader::open(&path).unwrap();
+            assert_eq!(reader.spec().bits_per_sample, bits);
+            let full = f64::from(2.0_f32.powi(i32::from(bits) - 1) - 1.0);
+            let read: Vec<f64> = match samples {
+                SampleType::Float32 => reader.samples::<f32>().map(|x| f64::from(x.unwrap())).collect(),
+                _ => reader.samples::<i32>().map(|x| f64::from(x.unwrap()) / full).collect(),
+            };
+            let peak = read.iter().fold(0.0_f64, |peak, x| peak.max(x.abs()));
+            assert!((peak - 10_f64.powf(-0.05)).abs() < 1e-4, "{peak}");
+            for (x, expected) in read.iter().zip(given) {
+                assert!(
+                    (x * beside.full_scale - f64::from(expected)).abs() < step * beside.full_scale,
+                    "{x}"
+                );
+            }
+        }
+        // Silence has no peak; integers cannot hold the level of floats, so it is not kept.
+        write_wav_as(
+            &path,
+            &[0.0; 4],
+            &sidecar(),
+            WavEncoding { samples: SampleType::Pcm16, level: Level::Kept },
+        )
+        .unwrap();
+        let beside: SidecarV1 = serde_json::from_slice(&fs::read(sidecar_path(&path)).unwrap()).unwrap();
+        assert_eq!(beside.full_scale, 1.0);
+    }
+
     #[test]
     fn nothing_is_left_half_written() {
         let folder = tempfile::tempdir().unwrap();
@@ -281,7 +318,7 @@ mod tests {
 
     #[test]
     fn what_32_bits_cannot_count_is_refused() {
-        let header = pack(&[], 1000).unwrap();
+        let header = pack(&[], 1.0, 1000, SampleType::Float32).unwrap();
         assert_eq!(header.len(), HEADER_BYTES as usize);
         assert!(check_length(MAX_SAMPLES).is_ok());
         let fits = |n_samples: u64| u32::try_from(4 * n_samples + u64::from(HEADER_BYTES)).is_ok();

@@ -19,6 +19,31 @@ pub struct SampleFormat {
     pub seed: u64,
 }
 
+/// Duration of the crossfade at the seam of a loop, in seconds.
+pub const SEAM_SECS: f64 = 0.1;
+
+/// Number of samples to render for a loop of `n` samples: the seam is rendered twice.
+pub fn n_for_loop(n: usize, rate: Hertz) -> usize {
+    n + seam(n, rate)
+}
+
+fn seam(n: usize, rate: Hertz) -> usize {
+    ((SEAM_SECS * rate.0) as usize).min(n / 2)
+}
+
+/// Makes a loop of `n` samples from [`n_for_loop`] samples: what follows the end is mixed into the beginning, so that the
+/// signal goes on over the seam. The two parts are independent noise, so their powers add: the weights are a cosine and a
+/// sine.
+pub fn looped(mut samples: Vec<f32>, n: usize, rate: Hertz) -> Vec<f32> {
+    let n_seam = seam(n, rate).min(samples.len().saturating_sub(n));
+    for i in 0..n_seam {
+        let angle = std::f64::consts::FRAC_PI_2 * (i as f64 + 0.5) / n_seam as f64;
+        samples[i] = (f64::from(samples[i]) * angle.sin() + f64::from(samples[n + i]) * angle.cos()) as f32;
+    }
+    samples.truncate(n);
+    samples
+}
+
 /// Renders the acceleration in m/s² of a weighted mixture of textures.
 ///
 /// # Errors
@@ -48,4 +73,34 @@ pub fn render_along(
     let SampleFormat { rate, seconds, seed } = format;
     let prepared: Vec<Prepared> = path.keys().iter().map(|key| Plane::new(&key.model).prepare()).collect();
     render_path(&PathPlan { path, prepared: &prepared, rate, seconds, seed }, hand)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{looped, n_for_loop};
+    use shagreen_core::maths::rng::lcg_noise;
+    use shagreen_core::units::Hertz;
+
+    #[test]
+    fn a_loop_has_no_click_and_no_dip_at_its_seam() {
+        let (n, rate) = (4800, Hertz(4800.0));
+        // A slow wave: across the seam it must go on as it does elsewhere.
+        let wave = |i: usize| (0.01 * i as f32).sin();
+        let made = looped((0..n_for_loop(n, rate)).map(wave).collect(), n, rate);
+        assert_eq!(made.len(), n);
+        assert!((made[0] - made[n - 1]).abs() < 0.011 + 0.01, "{} after {}", made[0], made[n - 1]);
+        // Noise has the same power at the seam as elsewhere, in the mean over many loops.
+        let power = |from: usize, to: usize| -> f64 {
+            let one = |seed: u64| {
+                let noise = lcg_noise(n_for_loop(n, rate), seed).into_iter().map(|x| x as f32).collect();
+                let made = looped(noise, n, rate);
+                made[from..to].iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / (to - from) as f64
+            };
+            (1..40).map(one).sum::<f64>() / 39.0
+        };
+        assert!((power(0, 480) / power(1000, 4000) - 1.0).abs() < 0.05);
+        // A loop that is shorter than two seams still works.
+        assert_eq!(looped((0..n_for_loop(10, rate)).map(wave).collect(), 10, rate).len(), 10);
+        assert!(looped(Vec::new(), 0, rate).is_empty());
+    }
 }

@@ -4,13 +4,16 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use shagreen_core::space::LabelSource;
+use shagreen_core::space::authoring::Authored;
 use shagreen_core::space::texture_path::TexturePath;
-use shagreen_core::units::Contact;
+use shagreen_core::texture::tap::Tap;
+use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Provenance, TextureEntry};
 use shagreen_formats::project::{AuthoredTexture, Project};
-use shagreen_formats::wav::{ParentV1, SidecarV1, TraceV1};
+use shagreen_formats::wav::{ParentV1, SidecarV1};
 
 use super::Session;
+use super::audible::Audible;
 use crate::session::kept_path::drawn_path;
 use crate::state::bench_signal::BenchSignal;
 use crate::state::document::CREATED_BY;
@@ -34,19 +37,9 @@ impl Session {
         }
         let authored = self.authored().ok_or(strings::NOTHING)?;
         let alone = self.solo(project).filter(|_| compared.is_none() && !self.is_path_playing());
-        let mut sidecar = SidecarV1 {
-            blend: authored.mode.id().to_owned(),
-            library: self.textures.library.name.clone(),
-            label_source: self.common_source().map(|source| LabelSource::id(source).to_owned()),
-            trace: TraceV1 {
-                time_s: vec![0.0, SIGNAL_SECS],
-                speed_mm_per_s: vec![as_set(contact.speed.mm_per_s()); 2],
-                force_n: vec![as_set(contact.force.0); 2],
-            },
-            ..SidecarV1::new(SIGNAL_RATE_HZ, SIGNAL_SECS, SIGNAL_SEED, CREATED_BY)
-        };
         let of_list = alone.and_then(|texture| self.textures.library.textures[texture].path.clone());
         let is_drawn = of_list.is_none() && self.is_path_playing();
+        let mut place = None;
         let (sounding, parents) = if let Some(path) = of_list {
             (Sounding::Path(Box::new(path)), authored.parents.clone())
         } else if is_drawn {
@@ -59,23 +52,71 @@ impl Session {
             if self.is_preparing() || self.sound.heard.voices.is_empty() {
                 return Err(strings::PREPARING.to_owned());
             }
-            sidecar.at = alone.is_none().then_some({
-                let at = authored.location.at;
-                [at.rough_smooth, at.hard_soft]
-            });
-            (sidecar.clamped, sidecar.extrapolated) = (authored.location.clamped, authored.is_extrapolated);
+            place = alone.is_none().then_some(authored);
             let voices = self.sound.heard.voices.iter().map(|voice| (Arc::clone(&voice.plane), voice.share));
             (Sounding::Mix(voices.collect(), self.sound.heard.mixing), authored.parents.clone())
         };
-        sidecar.texture = alone.map(|texture| self.textures.library.textures[texture].id.clone());
-        sidecar.parents = parents
-            .iter()
-            .map(|(texture, weight)| ParentV1::new(&self.textures.library, *texture, *weight))
-            .collect();
-        let entries = parents.iter().map(|(texture, _)| &self.textures.library.textures[*texture]);
+        let texture = alone.map(|texture| self.textures.library.textures[texture].id.clone());
+        let file = SignalFile { tap: self.tap_of(authored), ..self.signal_of(sounding, &parents, contact) };
+        let sidecar = SidecarV1 { texture, blend: authored.mode.id().to_owned(), ..file.sidecar };
+        Ok(SignalFile { sidecar: placed(sidecar, place), ..file })
+    }
+
+    /// Signals of all authored textures at one contact, with their names: the blend at each point.
+    ///
+    /// # Errors
+    /// States why there are none: a blind comparison hides them, or they are still being computed.
+    pub fn authored_signals(
+        &self,
+        project: &Project,
+        contact: Contact,
+    ) -> Result<Vec<(String, SignalFile)>, String> {
+        if self.authored().is_none() {
+            return Err(strings::NOTHING.to_owned());
+        }
+        if self.is_preparing() {
+            return Err(strings::PREPARING.to_owned());
+        }
+        let of = |texture: &Arc<AuthoredTexture>| {
+            let authored = self.authoring().author(texture.at, &self.blending(&texture.blend))?;
+            let heard = Audible::new(&authored, &self.textures.planes, 0);
+            let voices = heard.voices.iter().map(|voice| (Arc::clone(&voice.plane), voice.share));
+            let sounding = Sounding::Mix(voices.collect(), heard.mixing);
+            let file = SignalFile {
+                tap: self.tap_of(&authored),
+                ..self.signal_of(sounding, &authored.parents, contact)
+            };
+            let sidecar = SidecarV1 { blend: authored.mode.id().to_owned(), ..file.sidecar };
+            Some((texture.name.clone(), SignalFile { sidecar: placed(sidecar, Some(&authored)), ..file }))
+        };
+        Ok(project.authored.iter().filter_map(of).collect())
+    }
+
+    fn tap_of(&self, authored: &Authored) -> Option<Tap> {
+        authored.tap(|texture| self.textures.library.textures[texture].model.tap())
+    }
+
+    /// A signal of these textures, which are named in its sidecar.
+    fn signal_of(&self, sounding: Sounding, parents: &[(usize, f64)], contact: Contact) -> SignalFile {
+        let library = &self.textures.library;
+        let named = |(texture, weight): &(usize, f64)| ParentV1::new(library, *texture, *weight);
+        let sidecar = SidecarV1 {
+            library: library.name.clone(),
+            label_source: self.common_source().map(|source| LabelSource::id(source).to_owned()),
+            parents: parents.iter().map(named).collect(),
+            ..SidecarV1::new(SIGNAL_RATE_HZ, SIGNAL_SECS, SIGNAL_SEED, CREATED_BY)
+        };
+        let entries = parents.iter().map(|(texture, _)| &library.textures[*texture]);
         let restricted = entries.filter(|entry| entry.provenance == Provenance::Restricted);
-        let restricted = restricted.map(|entry| entry.name.clone()).collect();
-        Ok(SignalFile { sounding, contact, sidecar, restricted })
+        SignalFile {
+            sounding,
+            contact,
+            stroke: self.stroke().map(|stroke| Arc::new(stroke.track().clone())),
+            tap: None,
+            model_rate: Hertz(self.sound.rate_hz),
+            sidecar,
+            restricted: restricted.map(|entry| entry.name.clone()).collect(),
+        }
     }
 
     /// Audible texture as a library entry, for other programs: the soloed texture, or the texture interpolated at the
@@ -122,20 +163,21 @@ impl Session {
 /// Signal of the Signals workspace at its own speed and force.
 fn of_bench(signal: &Arc<BenchSignal>) -> SignalFile {
     let contact = Contact { speed: signal.speed, force: signal.force };
-    let sidecar = SidecarV1 {
-        trace: TraceV1 {
-            time_s: vec![0.0, signal.seconds()],
-            speed_mm_per_s: vec![as_set(contact.speed.mm_per_s()); 2],
-            force_n: vec![as_set(contact.force.0); 2],
-        },
-        ..SidecarV1::new(SIGNAL_RATE_HZ, signal.seconds(), SIGNAL_SEED, CREATED_BY)
-    };
+    let sidecar = SidecarV1::new(SIGNAL_RATE_HZ, signal.seconds(), SIGNAL_SEED, CREATED_BY);
     let restricted = signal.restricted.clone();
-    SignalFile { sounding: Sounding::Bench(Arc::clone(signal)), contact, sidecar, restricted }
+    let (stroke, tap, model_rate) = (None, None, Hertz(f64::from(SIGNAL_RATE_HZ)));
+    let sounding = Sounding::Bench(Arc::clone(signal));
+    SignalFile { sounding, contact, stroke, tap, model_rate, sidecar, restricted }
 }
 
-/// Rounds a speed or force to thousandths, because the user sets it as `f32`.
-fn as_set(value: f64) -> f64 {
-    let thousandths = f64::from(value as f32) * 1e3;
-    thousandths.round() / 1e3
+/// The sidecar with the point of an authored texture.
+fn placed(sidecar: SidecarV1, authored: Option<&Authored>) -> SidecarV1 {
+    let Some(authored) = authored else { return sidecar };
+    let at = authored.location.at;
+    SidecarV1 {
+        at: Some([at.rough_smooth, at.hard_soft]),
+        clamped: authored.location.clamped,
+        extrapolated: authored.is_extrapolated,
+        ..sidecar
+    }
 }

@@ -2,6 +2,7 @@
 //! about textures that must not be redistributed.
 
 mod content;
+mod signal_ui;
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
@@ -17,12 +18,14 @@ use crate::look::browse::{Asked, Browse};
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, Tokens, tokens};
 use crate::sheets::save::content::{Content, Outcome, write};
+use crate::sheets::save::signal_ui::options_ui;
 use crate::state::background::in_background;
 use crate::state::document::CREATED_BY;
 use crate::strings::{build, document, import as strings, signal, stroke};
 
 use crate::state::figure_file::FigureFile;
-use crate::state::signal_file::{SIGNAL_RATE_HZ, SIGNAL_SECS, SignalFile, Sounding};
+use crate::state::signal_export::SignalExport;
+use crate::state::signal_file::Sounding;
 use crate::state::stroke_file::StrokeFile;
 use crate::state::texture_file::TextureFile;
 
@@ -58,14 +61,14 @@ enum Subject {
     Library,
     Figure(FigureFile),
     Stroke(StrokeFile),
-    Signal(Box<SignalFile>),
+    Signal(Box<SignalExport>),
     Texture(TextureFile),
     Project(Box<Project>),
 }
 
 impl SaveSheet {
     /// Sheet that saves a signal, by default at `path`.
-    pub fn signal(signal: SignalFile, path: &Path) -> Self {
+    pub fn signal(signal: SignalExport, path: &Path) -> Self {
         Self::of(Subject::Signal(Box::new(signal)), path.display().to_string())
     }
 
@@ -165,18 +168,24 @@ impl SaveSheet {
         if field.changed() {
             self.state = State::Asking;
         }
+        if let Subject::Signal(export) = &mut self.subject {
+            let changed = ui.add_enabled_ui(!is_saving, |ui| options_ui(ui, export)).inner;
+            if changed {
+                self.state = State::Asking;
+            }
+        }
         // A figure contains names and numbers of textures, but no texture.
         let restricted: Vec<&str> = match &self.subject {
             Subject::Library => library.restricted().map(|entry| entry.name.as_str()).collect(),
             Subject::Project(project) => project.restricted().map(|entry| entry.name.as_str()).collect(),
-            Subject::Signal(file) => file.restricted.iter().map(String::as_str).collect(),
+            Subject::Signal(export) => export.restricted(),
             Subject::Texture(texture) => texture.restricted().into_iter().collect(),
             Subject::Figure(_) | Subject::Stroke(_) => Vec::new(),
         };
         if let Some(warning) = Provenance::warning(&restricted) {
             ui.add(Label::new(RichText::new(warning).color(t.warning)).wrap());
         }
-        let (text, color) = self.message(library, &t);
+        let (text, color) = self.message(library, t);
         ui.add(Label::new(RichText::new(text).color(color)).wrap());
         ui.add_space(GAP);
         ui.horizontal(|ui| {
@@ -240,12 +249,14 @@ impl SaveSheet {
                     (build::to_save(&figure.title(), figure.format.word()), t.text_weak)
                 }
                 Subject::Stroke(file) => (stroke::to_save(file.secs()), t.text_weak),
-                Subject::Signal(file) => {
+                Subject::Signal(export) => {
+                    let (file, options) = (&export.file, &export.options);
                     let Contact { speed, force } = file.contact;
+                    let steady = (!options.follows_stroke).then_some((speed.mm_per_s(), force.0));
                     let text = match &file.sounding {
-                        Sounding::Bench(of) => signal::bench_to_save(&of.name, of.seconds(), SIGNAL_RATE_HZ),
+                        Sounding::Bench(of) => signal::bench_to_save(&of.name, of.seconds()),
                         Sounding::Mix(..) | Sounding::Path(_) => {
-                            signal::to_save(SIGNAL_SECS, speed.mm_per_s(), force.0, SIGNAL_RATE_HZ)
+                            signal::to_save(file.seconds(options), steady)
                         }
                     };
                     (text, t.text_weak)

@@ -8,21 +8,56 @@ use shagreen_core::space::texture_path::TexturePath;
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::plane::Plane;
 use shagreen_core::texture::render::RenderError;
-use shagreen_core::units::{Contact, Hertz};
+use shagreen_core::texture::tap::Tap;
+use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
+use shagreen_device::track::Track;
 use shagreen_formats::bounded_file::{self, FileKind};
-use shagreen_formats::wav::{SidecarV1, is_sidecar, sidecar_path, write_wav};
-use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
+use shagreen_formats::wav::{SidecarV1, TraceV1, is_sidecar, sidecar_path, write_wav_as};
+use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
+use shagreen_studio::render::{SampleFormat, looped, n_for_loop, render_along, render_mixture};
 use shagreen_studio::replace::is_own_signal;
+use shagreen_studio::tap_transients::add_tap_transients;
 
 use crate::state::bench_signal::BenchSignal;
 use crate::strings::signal as strings;
 
-/// Duration of the signal, in seconds.
+/// Usual duration of the signal, in seconds.
 pub(crate) const SIGNAL_SECS: f64 = 5.0;
-/// Sample rate of the signal in Hz, which audio editors and game engines accept.
+/// Usual sample rate of the signal in Hz, which audio editors and game engines accept.
 pub(crate) const SIGNAL_RATE_HZ: u32 = 48_000;
+/// Most points of the trace in a sidecar, and their usual interval in seconds.
+const MAX_TRACE_POINTS: f64 = 20_000.0;
+const TRACE_STEP_SECS: f64 = 0.01;
 /// Seed of the noise.
 pub(crate) const SIGNAL_SEED: u64 = 1;
+
+/// How a signal is rendered and written.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalOptions {
+    /// Duration in seconds, unless a recorded stroke or a signal of the Signals workspace determines it.
+    pub seconds: f64,
+    /// Sample rate in Hz.
+    pub rate_hz: u32,
+    /// Type and level of the samples.
+    pub encoding: WavEncoding,
+    /// Whether the end goes on into the beginning.
+    pub loops: bool,
+    /// Whether the tip follows the recorded stroke.
+    pub follows_stroke: bool,
+}
+
+impl Default for SignalOptions {
+    fn default() -> Self {
+        Self {
+            seconds: SIGNAL_SECS,
+            rate_hz: SIGNAL_RATE_HZ,
+            // What every player plays without clipping; the sidecar keeps the unit.
+            encoding: WavEncoding { samples: SampleType::Float32, level: Level::Peak },
+            loops: false,
+            follows_stroke: false,
+        }
+    }
+}
 
 /// Source of a signal.
 #[derive(Clone, Debug)]
@@ -42,6 +77,12 @@ pub struct SignalFile {
     pub sounding: Sounding,
     /// Constant tip speed and normal force.
     pub contact: Contact,
+    /// Recorded stroke that the tip may follow instead.
+    pub stroke: Option<Arc<Track>>,
+    /// Tap transient of the texture, which each contact of a recorded stroke adds.
+    pub tap: Option<Tap>,
+    /// Rate of the texture's model.
+    pub model_rate: Hertz,
     /// Metadata of the samples.
     pub sidecar: SidecarV1,
     /// Names of the contained textures that may not be redistributed.
@@ -54,26 +95,85 @@ impl SignalFile {
     /// # Errors
     /// States that the signal cannot be rendered or written, or that the path of the sidecar is taken by another kind
     /// of file.
-    pub(crate) fn write(&self, path: &Path) -> Result<(), String> {
+    pub(crate) fn write(&self, path: &Path, options: &SignalOptions) -> Result<(), String> {
         if !Self::may_lie_beside(path) {
             return Err(strings::NO_SIGNAL.to_owned());
         }
-        let samples = self.samples().map_err(|error| error.to_string())?;
-        write_wav(path, &samples, &self.sidecar).map_err(|error| error.to_string())
+        let (rate_hz, seconds) = (options.rate_hz, self.seconds(options));
+        let samples = self.samples(options)?;
+        let trace = self.trace(options);
+        let sidecar = SidecarV1 { rate_hz, seconds, trace, ..self.sidecar.clone() };
+        write_wav_as(path, &samples, &sidecar, options.encoding).map_err(|error| error.to_string())
     }
 
-    /// Samples in m/s² at [`SIGNAL_RATE_HZ`].
+    /// Stroke that the tip follows with these options.
+    fn stroke(&self, options: &SignalOptions) -> Option<&Track> {
+        self.stroke.as_deref().filter(|_| options.follows_stroke && !self.is_of_bench())
+    }
+
+    /// Whether the signal is one of the Signals workspace, which has its own duration.
+    pub(crate) fn is_of_bench(&self) -> bool {
+        matches!(self.sounding, Sounding::Bench(_))
+    }
+
+    /// Duration in seconds.
+    pub(crate) fn seconds(&self, options: &SignalOptions) -> f64 {
+        match &self.sounding {
+            Sounding::Bench(signal) => signal.seconds(),
+            Sounding::Mix(..) | Sounding::Path(_) => {
+                self.stroke(options).map_or(options.seconds, Track::duration_secs)
+            }
+        }
+    }
+
+    /// Samples in m/s².
     ///
     /// # Errors
     /// The signal cannot be rendered.
-    pub(crate) fn samples(&self) -> Result<Vec<f32>, RenderError> {
-        let rate = Hertz(f64::from(SIGNAL_RATE_HZ));
-        let format = SampleFormat { rate, seconds: SIGNAL_SECS, seed: SIGNAL_SEED };
-        let mut contact_at = |_| self.contact;
-        match &self.sounding {
+    pub(crate) fn samples(&self, options: &SignalOptions) -> Result<Vec<f32>, String> {
+        let rate = Hertz(f64::from(options.rate_hz));
+        let stroke = self.stroke(options);
+        let seconds = self.seconds(options);
+        let n = (seconds * rate.0).round() as usize;
+        let loops = options.loops && stroke.is_none() && !self.is_of_bench();
+        let rendered_secs = if loops { n_for_loop(n, rate) as f64 / rate.0 } else { seconds };
+        let format = SampleFormat { rate, seconds: rendered_secs, seed: SIGNAL_SEED };
+        let mut contact_at = |secs: f64| stroke.map_or(self.contact, |track| contact_of(track, secs));
+        let rendered: Result<Vec<f32>, RenderError> = match &self.sounding {
             Sounding::Bench(signal) => Ok(signal.at(rate).into_iter().map(|x| x as f32).collect()),
             Sounding::Path(path) => render_along(path, format, &mut contact_at),
             Sounding::Mix(voices, mode) => render_mixture(voices, *mode, format, &mut contact_at),
+        };
+        let mut samples = rendered.map_err(|error| error.to_string())?;
+        if let (Some(track), Some(tap)) = (stroke, self.tap) {
+            let added = add_tap_transients(
+                &mut samples,
+                options.rate_hz,
+                self.model_rate.0,
+                track.clone(),
+                tap.into(),
+            );
+            added.map_err(|error| format!("{error:#}"))?;
+        }
+        Ok(if loops { looped(samples, n, rate) } else { samples })
+    }
+
+    /// Speed and force over time, for the sidecar.
+    fn trace(&self, options: &SignalOptions) -> TraceV1 {
+        let seconds = self.seconds(options);
+        let times: Vec<f64> = match self.stroke(options) {
+            Some(_) => {
+                let n = (seconds / TRACE_STEP_SECS).ceil().clamp(1.0, MAX_TRACE_POINTS);
+                (0..=n as usize).map(|i| seconds * i as f64 / n).collect()
+            }
+            None => vec![0.0, seconds],
+        };
+        let at = |secs: &f64| self.stroke(options).map_or(self.contact, |track| contact_of(track, *secs));
+        let contacts: Vec<Contact> = times.iter().map(at).collect();
+        TraceV1 {
+            speed_mm_per_s: contacts.iter().map(|contact| as_set(contact.speed.mm_per_s())).collect(),
+            force_n: contacts.iter().map(|contact| as_set(contact.force.0)).collect(),
+            time_s: times,
         }
     }
 
@@ -89,4 +189,19 @@ impl SignalFile {
             Err(error) => error.kind() == ErrorKind::NotFound,
         }
     }
+}
+
+/// Speed and force of a recorded stroke.
+fn contact_of(track: &Track, secs: f64) -> Contact {
+    let contact = track.touch_at(secs).contact;
+    Contact {
+        speed: MetersPerSecond(f64::from(contact.speed_mps)),
+        force: Newtons(f64::from(contact.force_n)),
+    }
+}
+
+/// Rounds a speed or force to thousandths, because the user sets it as `f32`.
+fn as_set(value: f64) -> f64 {
+    let thousandths = f64::from(value as f32) * 1e3;
+    thousandths.round() / 1e3
 }

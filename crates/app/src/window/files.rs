@@ -25,6 +25,7 @@ use crate::state::document::{Came, DocumentFile};
 use crate::state::edit::Edit;
 use crate::state::history::History;
 use crate::state::leave::Leave;
+use crate::state::signal_export::SignalExport;
 use crate::state::texture_file::TextureFile;
 use crate::strings;
 use crate::window::file_menu::kept_inside;
@@ -98,7 +99,9 @@ impl Window {
                         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
                         let name = id_from_name(&panel.heard_name());
                         let path = self.exports_folder.join(name).with_extension("wav");
-                        self.sheet = Sheet::Save(SaveSheet::signal(signal, &path));
+                        // A blind comparison that hides the others hides this one too.
+                        let all = self.session.authored_signals(&self.project, contact).unwrap_or_default();
+                        self.sheet = Sheet::Save(SaveSheet::signal(SignalExport::new(signal, all), &path));
                     }
                     Err(reason) => self.session.say(reason),
                 }

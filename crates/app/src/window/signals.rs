@@ -15,7 +15,7 @@ use crate::sheets::Sheet;
 use crate::sheets::open_sheet::OpenSheet;
 use crate::state::bench_signal::BenchSignal;
 use crate::state::edit::Edit;
-use crate::state::signal_file::{SIGNAL_RATE_HZ, SignalFile};
+use crate::state::signal_file::{SIGNAL_RATE_HZ, SignalFile, SignalOptions};
 use crate::strings::signals as strings;
 
 impl Window {
@@ -86,7 +86,7 @@ impl Window {
 
 /// Renders a signal and converts it to an acceleration profile.
 fn rendered(name: &str, file: SignalFile) -> Result<BenchSignal, String> {
-    let samples = file.samples().map_err(|error| error.to_string())?;
+    let samples = file.samples(&SignalOptions::default())?;
     let samples: Vec<f64> = samples.into_iter().map(f64::from).collect();
     let (rate, contact) = (Hertz(f64::from(SIGNAL_RATE_HZ)), file.contact);
     let made = BenchSignal::of_samples(name, &samples, rate, contact.speed, contact.force)?;

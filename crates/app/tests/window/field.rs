@@ -118,6 +118,7 @@ fn a_locked_texture_is_met_exactly() {
     let wood = window(&harness).session().textures().iter().position(|t| t.name == "Sanded wood").unwrap();
     assert_eq!(authored(&harness).parents, [(wood, 1.0)]);
     let at = window(&harness).session().space().position(wood).unwrap();
+    move_to(&mut harness, at.rough_smooth + 1.0, at.hard_soft);
     move_to(&mut harness, at.rough_smooth, at.hard_soft);
     let smoothed = authored(&harness);
     assert!(smoothed.lock.is_none() && smoothed.parents[0].1 < 0.9, "{:?}", smoothed.parents[0]);

@@ -10,7 +10,7 @@ use shagreen_app::choices::tour::Step;
 use shagreen_app::state::files::StoragePaths;
 use shagreen_app::state::recovery::INTERVAL;
 use shagreen_app::strings;
-use shagreen_app::strings::{document, gallery, help, import, signal};
+use shagreen_app::strings::{authored, document, gallery, help, import, signal};
 use shagreen_formats::gallery::GALLERY;
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::starter::starter_bytes;
@@ -448,6 +448,42 @@ fn the_scale_is_remembered() {
     });
 }
 
+#[test]
+fn all_authored_textures_are_exported_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    rename(&mut harness, "Oak");
+    click(&mut harness, authored::ADD);
+    harness.run_steps(4);
+    rename(&mut harness, "Oak");
+    wait_for_field(&mut harness);
+    menu(&mut harness, signal::EXPORT);
+    harness.run_steps(4);
+    click(&mut harness, &signal::all_of(2));
+    click(&mut harness, signal::LOOP);
+    harness.run_steps(2);
+    let path = folder.path().join("any.wav");
+    enter_path(&mut harness, signal::SAVE_PATH, &path);
+    let saved = import::saved(&path.display().to_string());
+    wait(&mut harness, "they are exported", |h| h.query_by_label(&saved).is_some());
+    let mut names: Vec<String> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["oak-2.json", "oak-2.wav", "oak.json", "oak.wav"]);
+    assert_eq!(std::fs::read(folder.path().join("oak.wav")).unwrap().len(), 68 + 4 * 240_000);
+    click(&mut harness, import::CLOSE);
+    harness.run_steps(3);
+    // They are replaced only when that was said.
+    menu(&mut harness, signal::EXPORT);
+    harness.run_steps(4);
+    click(&mut harness, &signal::all_of(2));
+    enter_path(&mut harness, signal::SAVE_PATH, &path);
+    wait(&mut harness, "it asks", |h| says(h, signal::EXISTS));
+}
+
 /// The audible texture is exported at the speed and force of the automatic stroke, and the sidecar describes the
 /// signal.
 #[test]
@@ -477,7 +513,11 @@ fn what_is_heard_is_exported_as_a_signal() {
     assert!(head.starts_with(b"RIFF"));
     let squares =
         samples.as_chunks::<4>().0.iter().map(|bytes| f64::from(f32::from_le_bytes(*bytes)).powi(2));
-    let level = (squares.sum::<f64>() / 240_000.0).sqrt();
+    // Players get at most −1 dB; the sidecar states the acceleration at full scale.
+    let level = sidecar.full_scale * (squares.sum::<f64>() / 240_000.0).sqrt();
+    let peak =
+        samples.as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes).abs()).fold(0.0, f32::max);
+    assert!((peak - 0.891).abs() < 1e-3, "{peak}");
     // The level equals that of the shown spectrum, within the noise of five seconds.
     let spectra = window(&harness).session().spectra();
     let steps = spectra.frequencies.windows(2).map(|f| f[1].0 - f[0].0);

@@ -8,6 +8,7 @@ use shagreen_formats::library::{Library, LibraryError, read_library, write_libra
 use shagreen_formats::project::{ProjectError, read_project};
 
 use crate::state::figure_file::FigureFile;
+use crate::state::signal_export::SignalExport;
 use crate::state::signal_file::SignalFile;
 use crate::state::stroke_file::StrokeFile;
 use crate::state::texture_file::TextureFile;
@@ -28,7 +29,7 @@ pub(super) enum Content {
     Library(Box<Library>),
     Figure(FigureFile),
     Stroke(StrokeFile),
-    Signal(Box<SignalFile>),
+    Signal(Box<SignalExport>),
     Texture(TextureFile),
     /// The document writes it once that is permitted.
     Project,
@@ -42,7 +43,7 @@ impl Content {
             Self::Figure(figure) => figure.bytes()?,
             Self::Stroke(file) => file.bytes(),
             Self::Texture(texture) => texture.bytes()?,
-            Self::Signal(file) => return file.write(path).map(|()| Outcome::Saved),
+            Self::Signal(export) => return export.write(path).map(|()| Outcome::Saved),
             Self::Project => return Ok(Outcome::MayBeWritten),
         };
         atomic::write(path, &bytes).map(|()| Outcome::Saved).map_err(|error| error.to_string())
@@ -70,6 +71,15 @@ impl Content {
 }
 
 pub(super) fn write(path: &Path, content: &Content, replaces: bool) -> Outcome {
+    if let Content::Signal(export) = content
+        && export.is_all
+    {
+        return match export.would_replace(path) {
+            Err(reason) => Outcome::Failed(reason),
+            Ok(true) if !replaces => Outcome::Exists,
+            Ok(_) => content.put(path).unwrap_or_else(Outcome::Failed),
+        };
+    }
     if path.symlink_metadata().is_ok() {
         // The file may have changed since the user was asked.
         match refusal(path, content) {

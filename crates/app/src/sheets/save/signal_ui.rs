@@ -1,0 +1,84 @@
+//! Options of an exported signal.
+
+use egui::{Checkbox, ComboBox, DragValue, Ui};
+use shagreen_formats::wav_encoding::{Level, SampleType};
+
+use crate::look::theme::GAP;
+use crate::state::signal_export::SignalExport;
+use crate::strings::signal as strings;
+
+/// Shortest and longest duration, in seconds.
+const SECS: std::ops::RangeInclusive<f64> = 0.05..=3600.0;
+/// Sample rates to choose from, in Hz.
+const RATES_HZ: [u32; 6] = [4000, 8000, 16_000, 44_100, 48_000, 96_000];
+
+/// Draws the options; returns whether any has changed.
+pub(super) fn options_ui(ui: &mut Ui, export: &mut SignalExport) -> bool {
+    let before = (export.options.clone(), export.is_all);
+    let is_of_bench = export.file.is_of_bench();
+    let has_stroke = export.file.stroke.is_some() && !is_of_bench;
+    let options = &mut export.options;
+    ui.horizontal(|ui| {
+        if has_stroke {
+            ComboBox::from_id_salt("motion")
+                .selected_text(strings::motion(options.follows_stroke))
+                .show_ui(ui, |ui| {
+                    for follows in [false, true] {
+                        ui.selectable_value(&mut options.follows_stroke, follows, strings::motion(follows));
+                    }
+                })
+                .response
+                .accessible_name(strings::MOTION);
+        }
+        let has_length = !is_of_bench && !options.follows_stroke;
+        ui.label(strings::LENGTH);
+        let length = DragValue::new(&mut options.seconds).range(SECS).speed(0.1).suffix(" s").max_decimals(2);
+        ui.add_enabled(has_length, length).accessible_name(strings::LENGTH);
+        let loops = Checkbox::new(&mut options.loops, strings::LOOP);
+        ui.add_enabled(has_length, loops).on_hover_text(strings::LOOP_HELP);
+    });
+    ui.horizontal(|ui| {
+        ui.label(strings::RATE);
+        // At least the rate of the model, or its highest frequencies would be folded back.
+        let lowest_hz = export.file.model_rate.0;
+        ComboBox::from_id_salt("rate")
+            .selected_text(strings::rate(options.rate_hz))
+            .show_ui(ui, |ui| {
+                for rate_hz in RATES_HZ.into_iter().filter(|rate_hz| f64::from(*rate_hz) >= lowest_hz) {
+                    ui.selectable_value(&mut options.rate_hz, rate_hz, strings::rate(rate_hz));
+                }
+            })
+            .response
+            .accessible_name(strings::RATE);
+        ui.label(strings::SAMPLES);
+        let samples = &mut options.encoding.samples;
+        ComboBox::from_id_salt("samples")
+            .selected_text(strings::samples(*samples))
+            .show_ui(ui, |ui| {
+                for each in SampleType::ALL {
+                    ui.selectable_value(samples, each, strings::samples(each));
+                }
+            })
+            .response
+            .accessible_name(strings::SAMPLES);
+    });
+    ui.horizontal(|ui| {
+        ui.label(strings::LEVEL);
+        let can_keep = options.encoding.samples == SampleType::Float32;
+        if !can_keep {
+            options.encoding.level = Level::Peak;
+        }
+        for level in [Level::Peak, Level::Kept] {
+            ui.add_enabled_ui(can_keep || level == Level::Peak, |ui| {
+                let choice = ui.radio_value(&mut options.encoding.level, level, strings::level(level));
+                choice.on_hover_text(strings::level_help(level));
+            });
+        }
+    });
+    if !export.all.is_empty() {
+        let text = strings::all_of(export.all.len());
+        ui.checkbox(&mut export.is_all, text).on_hover_text(strings::ALL_HELP);
+    }
+    ui.add_space(GAP);
+    before != (export.options.clone(), export.is_all)
+}
