@@ -250,12 +250,10 @@ fn a_prompt_becomes_a_picture_a_point_a_texture_and_a_project() {
 fn prompts_that_say_nothing_are_made_and_say_so() {
     let bench = Bench::new();
     let long = "rough ".repeat(2000);
-    for (prompt, is_about_touch) in [
-        ("", false),
-        ("the meaning of life", false),
-        ("\u{7c97}\u{3044}\u{5e03}", false),
-        (long.as_str(), true),
-    ] {
+    bench.fails("generate --out any --size 64 --", 2, &["PROMPT"]);
+    for (prompt, is_about_touch) in
+        [("the meaning of life", false), ("\u{7c97}\u{3044}\u{5e03}", false), (long.as_str(), true)]
+    {
         let said = generated(&bench, prompt, "--out any --size 64");
         assert_eq!(said["is_about_touch"], is_about_touch, "{prompt}");
         assert!(said["together"]["rough-smooth"]["sd"].as_f64().unwrap() > 3.0);

@@ -18,6 +18,7 @@ mod errors;
 mod evaluate;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod faults;
+mod guide;
 mod hostile;
 mod import;
 mod learn;

@@ -24,11 +24,12 @@ const ROOMS: [&str; 11] = [
 const ABOVE_PAGES: &str = "sheets";
 
 /// Layers of `app`, the lowest first; single files are layers too.
-const ROOMS_OF_APP: [&str; 14] = [
+const ROOMS_OF_APP: [&str; 15] = [
     "choices",
     "strings",
     "look",
     "state",
+    "browse",
     "session",
     "workspace",
     "panel",

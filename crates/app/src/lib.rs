@@ -21,6 +21,7 @@ use anyhow::anyhow;
 pub use crate::window::{Begin, WindowTimes};
 
 pub mod author;
+mod browse;
 pub mod build;
 pub mod choices;
 pub mod command;
@@ -65,7 +66,7 @@ pub fn run(start: Start) -> anyhow::Result<WindowTimes> {
         strings::APP,
         options,
         Box::new(move |creation| {
-            look::browse::allow_dialogs(&creation.egui_ctx);
+            browse::allow_dialogs(&creation.egui_ctx);
             let window = window::Window::new(&creation.egui_ctx, start.begin)?;
             Ok(Box::new(window::stopwatch::Stopwatch::new(
                 window,

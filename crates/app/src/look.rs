@@ -3,7 +3,6 @@
 //! Input: values and text. Output: egui shapes. Nothing here depends on a project.
 
 pub mod axes;
-pub(crate) mod browse;
 pub(crate) mod chart_ui;
 pub(crate) mod drag;
 pub(crate) mod label_places;

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::atomic::{self, WriteError};
 use crate::layout;
 use crate::library::Library;
-use crate::wav_encoding::{SampleType, WavEncoding, pack};
+use crate::wav_encoding::{HEADER_BYTES, SampleType, WavEncoding, pack};
 
 /// Value of the `format` field of a sidecar.
 pub const FORMAT: &str = "shagreen-signal";
@@ -18,8 +18,6 @@ pub const VERSION: &str = "1.0";
 /// Value of the `units` field of a sidecar.
 pub const UNITS: &str = "m/s^2";
 
-/// Bytes of a WAV file before its first sample.
-pub(crate) const HEADER_BYTES: u32 = 68;
 /// Maximum number of samples in a WAV file, which counts its bytes in 32 bits.
 pub const MAX_SAMPLES: u64 = ((u32::MAX - HEADER_BYTES) / 4) as u64;
 
@@ -200,6 +198,7 @@ pub fn write_wav_as(
     if beside == path {
         return Err(WavWriteError::Name { path: path.to_path_buf() });
     }
+    check_length(samples.len() as u64)?;
     let full_scale = encoding.full_scale(samples);
     let wav = pack(samples, full_scale, sidecar.rate_hz, encoding.samples)?;
     // One line per field, and one per row of the trace.
@@ -213,6 +212,7 @@ pub fn write_wav_as(
 /// # Errors
 /// See [`WavWriteError`]; an existing file is then unchanged.
 pub fn write_samples(path: &Path, samples: &[f32], rate_hz: u32) -> Result<(), WavWriteError> {
+    check_length(samples.len() as u64)?;
     atomic::write(path, &pack(samples, 1.0, rate_hz, SampleType::Float32)?)?;
     Ok(())
 }

@@ -4,8 +4,8 @@ use std::io::Cursor;
 
 use hound::{SampleFormat, WavSpec, WavWriter};
 
-use crate::wav::{HEADER_BYTES, WavWriteError, check_length};
-
+/// Bytes of a WAV file before its first sample.
+pub(crate) const HEADER_BYTES: u32 = 68;
 /// Peak of a signal that is scaled for players, as a fraction of digital full scale: 1 dB below it.
 pub const PEAK: f64 = 0.891_250_938_133_745_5;
 
@@ -70,8 +70,7 @@ pub(crate) fn pack(
     full_scale: f64,
     rate_hz: u32,
     of: SampleType,
-) -> Result<Vec<u8>, WavWriteError> {
-    check_length(samples.len() as u64)?;
+) -> Result<Vec<u8>, hound::Error> {
     let sample_format = if of == SampleType::Float32 { SampleFormat::Float } else { SampleFormat::Int };
     let spec = WavSpec { channels: 1, sample_rate: rate_hz, bits_per_sample: of.bits(), sample_format };
     let mut bytes = Cursor::new(Vec::with_capacity(HEADER_BYTES as usize + size_of_val(samples)));

@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 
 use egui::{Align, Button, Key, Label, Layout, RichText, TextEdit, Ui};
 
+use crate::browse::{Asked as Dialog, Browse};
 use crate::build::judgments::{Judgments, Slot};
-use crate::look::browse::{Asked as Dialog, Browse};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::session::Session;
 use crate::state::source::paths_in;

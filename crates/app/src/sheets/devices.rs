@@ -15,8 +15,8 @@ use shagreen_core::actuator::Actuator;
 use shagreen_core::units::Kilograms;
 
 use self::calibration_ui::Measurement;
+use crate::browse::Browse;
 use crate::command::Command;
-use crate::look::browse::Browse;
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::session::Session;

@@ -7,11 +7,11 @@ use std::sync::mpsc::Receiver;
 use egui::{Button, Context, Key, Label, RichText, ScrollArea, TextEdit, Ui};
 use shagreen_formats::project::EXTENSION;
 
+use crate::browse::{Asked, Browse};
 use crate::choices::signals::Slot;
 use crate::command::signals::SignalsCommand;
 use crate::command::stroke::StrokeCommand;
 use crate::command::{Command, FileCommand};
-use crate::look::browse::{Asked, Browse};
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, tokens};
 use crate::signals::reading::SIGNAL_ENDINGS;

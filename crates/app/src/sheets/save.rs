@@ -13,8 +13,8 @@ use shagreen_core::units::Contact;
 use shagreen_formats::library::{Library, Provenance};
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary};
 
+use crate::browse::{Asked, Browse};
 use crate::command::{Command, FileCommand};
-use crate::look::browse::{Asked, Browse};
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, Tokens, tokens};
 use crate::sheets::save::content::{Content, Outcome, write};

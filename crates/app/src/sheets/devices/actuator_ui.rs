@@ -11,7 +11,7 @@ use shagreen_device::synth::equalizer::Biquad;
 use shagreen_formats::actuator_toml::read_actuator;
 
 use super::{DevicesSheet, heading, note, row, warning};
-use crate::look::browse::Asked;
+use crate::browse::Asked;
 use crate::look::plot::fixed;
 use crate::look::theme::tokens;
 use crate::state::background::in_background;

@@ -4,9 +4,9 @@ use egui::{Align, Button, Context, Key, Label, Layout, RichText, TextEdit, Ui, U
 
 use shagreen_studio::open::OTHER_ENDINGS;
 
+use crate::browse::{Asked, Browse};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
-use crate::look::browse::{Asked, Browse};
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::sheets::import::batch::{Batch, Content, State};
