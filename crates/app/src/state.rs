@@ -15,6 +15,8 @@ pub mod heat_map;
 pub mod history;
 pub(crate) mod leave;
 pub(crate) mod mouse_report;
+pub(crate) mod own_surface;
+pub(crate) mod pad_surface;
 pub(crate) mod photo;
 pub mod pictures;
 pub mod recorded_stroke;

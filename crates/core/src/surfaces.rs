@@ -10,6 +10,7 @@ pub mod material;
 pub mod picture_features;
 pub mod prompt;
 pub mod prompt_material;
+pub mod quilt;
 pub mod random_material;
 pub mod shading;
 pub mod starter;

@@ -14,7 +14,7 @@ use shagreen_device::repeat::Repeat;
 use shagreen_device::touch::Touch;
 
 use crate::author::pad::controls_ui::controls_ui;
-use crate::author::pad::trail_ui::trail_ui;
+use crate::author::pad::trail_ui::{LiveTrail, trail_ui};
 use crate::command::Command;
 use crate::look::drag::dragged_to;
 use crate::look::theme::{RADIUS, tokens};
@@ -45,6 +45,7 @@ pub struct PadState {
     n_strokes: u64,
     /// Last pressure that the window system reported for a pen or finger on the pad, 0 to 1.
     pressure: Option<f64>,
+    trail: LiveTrail,
 }
 
 impl Default for PadState {
@@ -55,6 +56,7 @@ impl Default for PadState {
             repeat: Repeat::AS_RECORDED,
             n_strokes: 0,
             pressure: None,
+            trail: LiveTrail::default(),
         }
     }
 }
@@ -132,6 +134,9 @@ pub fn pad_ui(
     }
     ui.painter().rect_stroke(area, f32::from(RADIUS), Stroke::new(1.0, t.line), egui::StrokeKind::Inside);
     trail_ui(ui, area, panel.session, state);
+    let now_secs = ui.input(|i| i.time);
+    state.trail.follow(now_secs, panel.session.touch());
+    state.trail.show(ui, area, now_secs);
     scale_bar(ui, area);
     tip(ui, area, panel.session.touch());
     ui.input(|i| state.follow_pressure(&i.events));
@@ -179,7 +184,8 @@ fn scale_bar(ui: &Ui, area: Rect) {
     );
 }
 
-/// Draws the tip as reported by the audio callback: a ring whose disc grows with the normal force.
+/// Draws the tip as reported by the audio callback: a ring whose disc grows with the normal force, in a dent that deepens
+/// with it.
 fn tip(ui: &Ui, area: Rect, touch: Touch) {
     if touch.contact.force_n <= 0.0 {
         return;
@@ -187,8 +193,14 @@ fn tip(ui: &Ui, area: Rect, touch: Touch) {
     let t = tokens(ui.ctx());
     let pos = in_ui(area, touch.x_m, touch.y_m);
     let painter = ui.painter().with_clip_rect(area);
+    let pressed = (touch.contact.force_n / 2.0).min(1.0);
+    for ring in 0..6 {
+        let share = 1.0 - ring as f32 / 6.0;
+        let shadow = egui::Color32::from_black_alpha((10.0 + 22.0 * pressed) as u8);
+        painter.circle_filled(pos, 7.0 + (6.0 + 12.0 * pressed) * share, shadow);
+    }
     painter.circle_filled(pos, 7.0, t.background.gamma_multiply(0.6));
-    painter.circle_filled(pos, 2.0 + 3.0 * (touch.contact.force_n / 2.0).min(1.0), t.accent);
+    painter.circle_filled(pos, 2.0 + 3.0 * pressed, t.accent);
     painter.circle_stroke(pos, 7.0, Stroke::new(2.0, t.accent));
     let text = format!("{:.0} mm/s  {:.2} N", touch.contact.speed_mps * 1e3, touch.contact.force_n);
     let galley = painter.layout_no_wrap(text, FontId::proportional(11.5), t.text);

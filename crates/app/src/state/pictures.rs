@@ -2,14 +2,15 @@
 
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
+use std::sync::mpsc::{Receiver, Sender, channel};
 
-use egui::{Color32, ColorImage, Context, TextureHandle, TextureOptions};
+use egui::{ColorImage, Context, TextureHandle, TextureId, TextureOptions};
+use shagreen_core::surfaces::quilt::Pixels;
 use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::{Picture, Rgb, decode};
 use shagreen_formats::project::ProjectLibrary;
 
-use crate::state::background::in_background;
+use crate::state::pad_surface::LitSurface;
 
 /// Side of the blended picture, in pixels.
 const BLEND_SIDE: usize = 192;
@@ -34,9 +35,9 @@ pub struct Pictures {
     undecoded: Vec<(u64, usize, Picture)>,
     /// Increases when the set of textures changes; results of earlier generations may be stale.
     generation: u64,
-    blended: Option<(Shares, TextureHandle)>,
-    /// Blend that a worker computes.
-    mixing: Option<(Shares, Receiver<ColorImage>)>,
+    /// Blended textures of the surface that is shown or being made.
+    blended: Option<Shares>,
+    surface: LitSurface,
 }
 
 /// Indices of the blended textures, and their weights in thousandths.
@@ -65,7 +66,7 @@ impl Pictures {
             undecoded: Vec::new(),
             generation: 0,
             blended: None,
-            mixing: None,
+            surface: LitSurface::default(),
         };
         pictures.extend(textures);
         pictures
@@ -108,7 +109,7 @@ impl Pictures {
         }
         self.thumbnails.resize(self.millimeters.len(), None);
         self.pixels.resize(self.millimeters.len(), None);
-        (self.blended, self.mixing) = (None, None);
+        self.blended = None;
     }
 
     /// Decodes waiting pictures in the background, once a frame. `ctx` is asked to repaint when a picture is ready.
@@ -143,7 +144,7 @@ impl Pictures {
                 TextureOptions { mipmap_mode: Some(egui::TextureFilter::Linear), ..TextureOptions::LINEAR };
             self.thumbnails[index] = Some(ctx.load_texture(format!("texture {index}"), color, options));
             self.pixels[index] = Some(image.into());
-            (self.blended, self.mixing) = (None, None);
+            self.blended = None;
         }
     }
 
@@ -152,41 +153,34 @@ impl Pictures {
         self.thumbnails.get(texture)?.as_ref()
     }
 
-    /// Blended picture, weighted like the vibrations, and the width of the surface that it shows in mm. A worker
-    /// computes it; until then, the previous picture is returned.
-    pub fn blend(&mut self, ctx: &Context, parents: &[(usize, f64)]) -> Option<(&TextureHandle, f64)> {
-        let wanted: Shares = parents.iter().map(|(i, w)| (*i, (w * 1000.0).round() as u32)).collect();
-        let side_mm = parents.iter().map(|(i, w)| w * self.millimeters[*i]).sum();
-        if let Some((shares, receiver)) = self.mixing.take() {
-            match receiver.try_recv() {
-                Ok(image) => self.show_blend(ctx, shares, image),
-                Err(TryRecvError::Empty) => self.mixing = Some((shares, receiver)),
-                Err(TryRecvError::Disconnected) => {}
-            }
-        }
-        let is_shown = self.blended.as_ref().is_some_and(|(shares, _)| *shares == wanted);
-        if !is_shown && self.mixing.is_none() {
-            let sources = parents.iter().map(|(i, w)| Some((Arc::clone(self.pixels.get(*i)?.as_ref()?), *w)));
-            if let Some(sources) = sources.collect::<Option<Vec<(Arc<Rgb>, f64)>>>() {
-                self.mixing = Some((wanted, in_background(ctx.clone(), move || mix(&sources))));
-            }
-        }
-        self.blended.as_ref().map(|(_, texture)| (texture, side_mm))
+    /// Whether a worker is making or lighting the surface of the pad.
+    pub fn is_busy(&self) -> bool {
+        self.surface.is_busy()
     }
 
-    fn show_blend(&mut self, ctx: &Context, shares: Shares, image: ColorImage) {
-        if let Some((shown, texture)) = &mut self.blended {
-            *shown = shares;
-            texture.set(image, TextureOptions::LINEAR_MIRRORED_REPEAT);
-        } else {
-            let texture = ctx.load_texture("blend", image, TextureOptions::LINEAR_MIRRORED_REPEAT);
-            self.blended = Some((shares, texture));
+    /// Surface with the blended picture, weighted like the vibrations, and its width and height in mm. A worker makes it;
+    /// until then, the previous surface is returned. `light` is the direction of the light.
+    pub(crate) fn blend(
+        &mut self,
+        ctx: &Context,
+        parents: &[(usize, f64)],
+        light: u8,
+    ) -> Option<(TextureId, [f64; 2])> {
+        let wanted: Shares = parents.iter().map(|(i, w)| (*i, (w * 1000.0).round() as u32)).collect();
+        if self.blended.as_ref() != Some(&wanted) && !self.surface.is_busy() {
+            let sources = parents.iter().map(|(i, w)| Some((Arc::clone(self.pixels.get(*i)?.as_ref()?), *w)));
+            if let Some(sources) = sources.collect::<Option<Vec<(Arc<Rgb>, f64)>>>() {
+                let width_mm = parents.iter().map(|(i, w)| w * self.millimeters[*i]).sum();
+                self.surface.make(ctx, move || Some((mix(&sources), width_mm)));
+                self.blended = Some(wanted);
+            }
         }
+        self.surface.show(ctx, light)
     }
 }
 
 /// Weighted mean of pictures, with their contrast restored.
-fn mix(parents: &[(Arc<Rgb>, f64)]) -> ColorImage {
+fn mix(parents: &[(Arc<Rgb>, f64)]) -> Pixels {
     let mut sum = vec![[0.0_f32; 3]; BLEND_SIDE * BLEND_SIDE];
     for (image, weight) in parents {
         let (width, height) = (image.width as usize, image.height as usize);
@@ -206,14 +200,10 @@ fn mix(parents: &[(Arc<Rgb>, f64)]) -> ColorImage {
     let light = blurred(&sum);
     let channel = |c: usize, p: &[f32; 3], light: &[f32; 3]| {
         let grain = ((p[c] - light[c]) / kept).clamp(-MAX_GRAIN, MAX_GRAIN);
-        (mean[c] + grain).clamp(0.0, 255.0) as u8
+        (mean[c] + grain).clamp(0.0, 255.0)
     };
-    let pixels = sum
-        .iter()
-        .zip(&light)
-        .map(|(p, l)| Color32::from_rgb(channel(0, p, l), channel(1, p, l), channel(2, p, l)))
-        .collect();
-    ColorImage::new([BLEND_SIDE, BLEND_SIDE], pixels)
+    let colors = sum.iter().zip(&light).map(|(p, l)| [channel(0, p, l), channel(1, p, l), channel(2, p, l)]);
+    Pixels { width: BLEND_SIDE, colors: colors.collect() }
 }
 
 /// Hash of a picture's bytes and size.

@@ -1,6 +1,7 @@
 //! Stage: the lower row of a page, with the stroke pad and the scope.
 
 use egui::{Panel as Side, Ui};
+use shagreen_device::touch::Touch;
 
 use super::Window;
 use crate::author::pad::{PadState, pad_ui};
@@ -8,8 +9,11 @@ use crate::author::scope::{ScopeState, scope_ui};
 use crate::command::Command;
 use crate::look::theme::{PAD_WIDTH, STAGE_HEIGHTS, STAGE_SHARE};
 use crate::panel::Panel;
-use crate::state::photo::OwnPicture;
+use crate::state::own_surface::OwnSurface;
+use crate::state::pad_surface::{N_LIGHTS, USUAL_LIGHT};
 
+/// Distance from the middle of the pad within which the tip does not move the light, in m.
+const LIGHT_FROM_M: f32 = 0.004;
 /// Maximum number of pictures that are blended for the pad. More take longer without a visible difference.
 const MAX_PICTURED: usize = 6;
 
@@ -18,7 +22,7 @@ const MAX_PICTURED: usize = 6;
 pub(super) struct Stage {
     pub(super) pad: PadState,
     pub(super) scope: ScopeState,
-    own_picture: OwnPicture,
+    own_surface: OwnSurface,
 }
 
 impl Window {
@@ -26,13 +30,12 @@ impl Window {
     pub(super) fn stage_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
         let parents = self.session.authored().map_or(&[][..], |authored| &authored.parents);
         let parents = pictured(parents);
-        let blended = if parents.is_empty() { None } else { self.pictures.blend(ctx, &parents) };
-        let blended = blended.map(|(texture, mm)| (texture.id(), [mm, mm]));
+        let light = light_of(self.session.touch());
+        let blended = if parents.is_empty() { None } else { self.pictures.blend(ctx, &parents, light) };
         let is_felt = self.session.felt_name().is_some();
         let heard = self.heard_texture().filter(|_| !self.compare.is_hidden() && !is_felt);
         let own = heard.and_then(|texture| texture.picture.clone());
-        let own =
-            self.pages.stage.own_picture.follow(own.as_ref(), ctx).map(|(texture, mm)| (texture.id(), mm));
+        let own = self.pages.stage.own_surface.follow(own.as_ref(), ctx, light);
         let picture = own.or(blended);
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         let (pad, scope, place) =
@@ -71,4 +74,14 @@ fn pictured(parents: &[(usize, f64)]) -> Vec<(usize, f64)> {
     let sum: f64 = largest.iter().map(|(_, weight)| weight.max(0.0)).sum();
     let share = |(texture, weight): &(usize, f64)| (*texture, weight.max(0.0) / sum);
     largest.iter().map(share).filter(|(_, share)| *share > 0.0).collect()
+}
+
+/// Direction of the light on the pad: while the tip touches, it moves with the tip, which shows the relief.
+fn light_of(touch: Touch) -> u8 {
+    let is_at_rest = touch.contact.force_n <= 0.0 || touch.x_m.hypot(touch.y_m) < LIGHT_FROM_M;
+    if is_at_rest {
+        return USUAL_LIGHT;
+    }
+    let turns = touch.y_m.atan2(touch.x_m) / std::f32::consts::TAU;
+    ((turns.rem_euclid(1.0) * f32::from(N_LIGHTS)) as u8).min(N_LIGHTS - 1)
 }

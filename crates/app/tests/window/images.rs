@@ -47,6 +47,8 @@ fn part(harness: &mut Author, area: Rect) -> RgbaImage {
     harness.hover_at(pos2(700.0, 705.0));
     // Time for all animations to end.
     harness.run_steps(30);
+    wait(harness, "the surface of the pad is made", |h| !window(h).pictures().is_busy());
+    harness.run_steps(4);
     let image = harness.render().unwrap();
     let area = area.intersect(Rect::from_min_max(pos2(0.0, 0.0), pos2(1280.0, 720.0)));
     let (min, size) = (area.min.round(), area.size().round());

@@ -1,6 +1,7 @@
-//! Trail of a recorded stroke on the stroke pad.
+//! Trails on the stroke pad: of a recorded stroke, and behind the tip while it strokes.
 
 use egui::{Align2, FontId, Rect, Shape, Stroke, Ui, vec2};
+use shagreen_device::touch::Touch;
 use shagreen_device::track::PenSample;
 
 use super::{PadState, in_ui};
@@ -11,6 +12,48 @@ use crate::strings::stroke as strings;
 
 /// Approximate maximum number of drawn points of a trail.
 const MOST_POINTS: usize = 2000;
+
+/// Time after which the trail behind the tip has faded, in seconds.
+const FADE_SECS: f64 = 0.7;
+
+/// Last places of the tip, for the trail that fades behind it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LiveTrail {
+    /// Time in seconds and place in m, as a ring; a tip that does not touch has no place.
+    places: [Option<(f64, [f32; 2])>; 64],
+    next: usize,
+}
+
+impl Default for LiveTrail {
+    fn default() -> Self {
+        Self { places: [None; 64], next: 0 }
+    }
+}
+
+impl LiveTrail {
+    /// Adds the place of the tip at a time of the window.
+    pub(super) fn follow(&mut self, now_secs: f64, touch: Touch) {
+        let place = (touch.contact.force_n > 0.0).then_some((now_secs, [touch.x_m, touch.y_m]));
+        self.places[self.next] = place;
+        self.next = (self.next + 1) % self.places.len();
+    }
+
+    /// Draws the trail.
+    pub(super) fn show(&self, ui: &Ui, area: Rect, now_secs: f64) {
+        let t = tokens(ui.ctx());
+        let painter = ui.painter().with_clip_rect(area);
+        let n = self.places.len();
+        let in_order = |i: usize| self.places[(self.next + i) % n];
+        for i in 1..n {
+            let (Some((_, from)), Some((secs, to))) = (in_order(i - 1), in_order(i)) else { continue };
+            let left = 1.0 - ((now_secs - secs) / FADE_SECS) as f32;
+            if left > 0.0 {
+                let stroke = Stroke::new(1.0 + 4.0 * left, t.accent.gamma_multiply(0.55 * left));
+                painter.line_segment([in_ui(area, from[0], from[1]), in_ui(area, to[0], to[1])], stroke);
+            }
+        }
+    }
+}
 
 /// Draws the trail of the recording in progress, or else of the repeated stroke.
 pub(super) fn trail_ui(ui: &Ui, area: Rect, session: &Session, state: &PadState) {
