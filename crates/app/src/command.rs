@@ -55,6 +55,12 @@ pub enum Command {
     OpenOutput(String),
     /// Opens the devices sheet.
     OpenDevices,
+    /// Duplicates the selected authored texture.
+    DuplicateTexture,
+    /// Turns the stroke while the point is dragged on or off.
+    ToggleDragStroke,
+    /// Turns the audition of the texture under the pointer on or off.
+    ToggleHover,
     /// Shows the details of the texture with this id.
     OpenTexture(String),
     /// Shows the details of the texture with this id, with the keyboard focus on its name.
@@ -213,7 +219,10 @@ const FILES_AND_EDITS: [Command; 12] = [
     Command::Redo,
 ];
 
-const OTHERS: [Command; 18] = [
+const OTHERS: [Command; 21] = [
+    Command::DuplicateTexture,
+    Command::ToggleDragStroke,
+    Command::ToggleHover,
     Command::OpenPalette,
     Command::TogglePathTool,
     Command::KeepPath,
@@ -273,7 +282,10 @@ impl Command {
             Self::ResetLimiter => Entry::new("Reset the limiter after a fault"),
             Self::TakeOverOutput => Entry::new("Take over the output from another Shagreen"),
             Self::ToggleTheme => Entry::new("Switch between dark and light theme").command(Key::T),
-            Self::OpenDevices => Entry::new("Devices").command(Key::D),
+            Self::OpenDevices => Entry::new("Devices").command_shift(Key::D),
+            Self::DuplicateTexture => Entry::new("Duplicate the authored texture").command(Key::D),
+            Self::ToggleDragStroke => Entry::new("Play or be silent while the point is dragged"),
+            Self::ToggleHover => Entry::new("Play textures under the pointer, or do not"),
             Self::OpenGuide => Entry::new("Open the guide"),
             Self::OpenShortcuts => Entry::new("Keyboard shortcuts").key(Key::F1),
             Self::BeginTour => Entry::new("Start the tour"),

@@ -6,6 +6,7 @@ pub(crate) mod file_menu;
 mod files;
 mod gesture_counter;
 mod pages;
+mod preview;
 mod prompts;
 mod rig;
 mod signals;
@@ -47,6 +48,7 @@ use crate::state::photo::PhotoReader;
 use crate::state::pictures::Pictures;
 use crate::state::recorded_stroke::StrokeReader;
 use crate::window::pages::Pages;
+use crate::window::preview::Preview;
 use crate::window::status_bar::status_ui;
 use crate::window::tour::Tour;
 use crate::workspace::Workspace;
@@ -95,6 +97,7 @@ pub struct Window {
     /// Default folder for saved figures, strokes and signals.
     exports_folder: PathBuf,
     output: SelectedOutput,
+    preview: Preview,
     /// File to take in the second frame.
     take: Option<PathBuf>,
 }
@@ -147,6 +150,7 @@ impl Window {
             // Without a current folder, the user completes the path.
             exports_folder: std::env::current_dir().unwrap_or_default(),
             output: selected_output,
+            preview: Preview::default(),
             take,
         })
     }
@@ -254,7 +258,7 @@ impl Window {
         Side::bottom("status")
             .exact_size(32.0)
             .frame(bar(2))
-            .show(ui, |ui| commands.extend(status_ui(ui, &panel)));
+            .show(ui, |ui| commands.extend(status_ui(ui, &panel, is_author)));
         if is_author {
             self.author_ui(ui, &ctx, &mut commands);
         } else {
@@ -277,6 +281,7 @@ impl Window {
         if self.pages.workspace == Workspace::Author && !self.sheet.is_open() && self.tour.show(&ctx) {
             self.files.settings.has_seen_tour = true;
         }
+        self.follow_preview(&commands, &ctx);
         for command in commands {
             self.carry_out(command, &ctx);
         }
@@ -321,7 +326,8 @@ impl Window {
         self.session.set_hidden(self.compare.is_hidden());
         let is_bench = self.pages.workspace == Workspace::Signals;
         self.session.feel(self.pages.signals.felt_signal().filter(|_| is_bench));
-        self.session.follow(&self.project, heard.as_deref(), ctx);
+        let project = self.previewed_project().into_owned();
+        self.session.follow(&project, heard.as_deref(), ctx);
     }
 
     /// Follows the zoom factor, which the keyboard and the window size determine, and stores the zoom that the user

@@ -39,6 +39,12 @@ pub struct Settings {
     /// The device setup; `None` if the user has not selected any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rig: Option<RigSettings>,
+    /// Whether the point does not play while it is dragged.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_silent_while_dragging: bool,
+    /// Whether a texture plays while the pointer rests on it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub plays_on_hover: bool,
     /// Recent prompts, newest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub prompts: Vec<KeptPrompt>,
@@ -110,6 +116,8 @@ pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
             .unwrap_or_default(),
         is_light: taken(&mut all, "is_light"),
         has_seen_tour: taken(&mut all, "has_seen_tour").unwrap_or_default(),
+        is_silent_while_dragging: taken(&mut all, "is_silent_while_dragging").unwrap_or_default(),
+        plays_on_hover: taken(&mut all, "plays_on_hover").unwrap_or_default(),
         scale: taken(&mut all, "scale").filter(|scale: &f32| scale.is_finite()),
         template: taken(&mut all, "template").and_then(|path: Value| path_json::from_json(&path)),
         prompts: taken(&mut all, "prompts").unwrap_or_default(),
@@ -126,6 +134,12 @@ pub fn merged(base: &Settings, ours: &Settings, theirs: Settings) -> Settings {
         recent: joined(&base.recent, &ours.recent, theirs.recent, MAX_RECENT),
         is_light: newer(&base.is_light, &ours.is_light, theirs.is_light),
         has_seen_tour: ours.has_seen_tour || theirs.has_seen_tour,
+        is_silent_while_dragging: newer(
+            &base.is_silent_while_dragging,
+            &ours.is_silent_while_dragging,
+            theirs.is_silent_while_dragging,
+        ),
+        plays_on_hover: newer(&base.plays_on_hover, &ours.plays_on_hover, theirs.plays_on_hover),
         scale: newer(&base.scale, &ours.scale, theirs.scale),
         template: newer(&base.template, &ours.template, theirs.template),
         rig: newer(&base.rig, &ours.rig, theirs.rig),

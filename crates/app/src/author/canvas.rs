@@ -37,6 +37,9 @@ use crate::strings::{self};
 
 /// Radius of a texture's picture on the canvas, in points.
 const SITE_RADIUS: f32 = 13.0;
+/// Radius of such a picture as a share of the height of the canvas, up to a limit in points: on a large screen it is larger.
+const SITE_SHARE: f32 = 0.03;
+const MAX_SITE_RADIUS: f32 = 28.0;
 /// Size of the authored point while it is not pointed at, in points.
 const POINT_SIZE: Vec2 = vec2(22.0, 22.0);
 /// Number of vertices of an ellipse.
@@ -56,6 +59,8 @@ pub struct CanvasState {
     pub tool: PathTool,
     /// Visible part of the space.
     pub view: View,
+    /// Texture under the pointer in the last frame.
+    pub(crate) pointed: Option<usize>,
     /// Height of the controls above the canvas in the last frame, in points.
     bar_height: f32,
 }
@@ -110,7 +115,9 @@ pub fn canvas_ui(
     } else if let Some(pos) = dragged_by_primary(ui, &background).or(clicked_at) {
         commands.push(move_to(axes.space_from_ui(pos)));
     }
-    commands.extend(sites_ui(ui, axes, panel, tool, &words, map.is_some(), t));
+    let (of_sites, pointed) = sites_ui(ui, axes, panel, tool, &words, map.is_some(), t);
+    commands.extend(of_sites);
+    state.pointed = pointed;
     if panel.session.space().sites().is_empty() {
         let font = FontId::proportional(15.0);
         let message =
@@ -157,6 +164,11 @@ fn dragged_by_primary(ui: &Ui, background: &Response) -> Option<Pos2> {
     let is_primary =
         background.dragged_by(PointerButton::Primary) || background.drag_stopped_by(PointerButton::Primary);
     dragged_to(ui, background).filter(|_| is_primary)
+}
+
+/// Radius of the picture of a texture, in points.
+fn site_radius(axes: Axes) -> f32 {
+    (SITE_SHARE * axes.rect.height()).clamp(SITE_RADIUS, MAX_SITE_RADIUS)
 }
 
 fn move_to(point: SpacePoint) -> Command {

@@ -142,10 +142,13 @@ fn count_ui(ui: &mut Ui, panel: &Panel<'_>, n_listed: usize) {
         let small =
             |text: String, color| Label::new(RichText::new(text).small().color(color)).selectable(false);
         ui.add(small(words::count(n_listed, panel.session.textures().len()), t.text_weak));
-        let color = if panel.session.is_simulated() { t.warning } else { t.text_weak };
-        let source = small(strings::places_from(panel.session.label_source()), color);
-        let about = format!("{}\n{}", panel.session.library().name, strings::SOURCE_HELP);
-        ui.add(source).on_hover_text(about);
+        // The canvas states the source too; that of simulated raters is worth saying twice.
+        if panel.session.is_simulated() {
+            let source = small(strings::places_from(panel.session.label_source()), t.warning);
+            ui.add(source).on_hover_text(strings::SOURCE_HELP);
+        } else {
+            ui.add(small(panel.session.library().name.clone(), t.text_weak));
+        }
     });
     ui.spacing_mut().interact_size.y = height;
 }

@@ -115,6 +115,11 @@ impl LitSurface {
         });
     }
 
+    /// The surface as it is shown, with its width and height in mm.
+    pub(crate) fn shown(&self) -> Option<(TextureId, [f64; 2])> {
+        self.shown.as_ref().map(|shown| (shown.texture.id(), shown.surface.size_mm))
+    }
+
     /// The surface with its width and height in mm, if there is one, under a light from this direction as soon as a
     /// worker has lit it.
     pub(crate) fn show(&mut self, ctx: &Context, light: u8) -> Option<(TextureId, [f64; 2])> {

@@ -153,6 +153,11 @@ impl Pictures {
         self.thumbnails.get(texture)?.as_ref()
     }
 
+    /// Surface of the pad as it is shown, with its width and height in mm.
+    pub(crate) fn surface(&self) -> Option<(TextureId, [f64; 2])> {
+        self.surface.shown()
+    }
+
     /// Whether a worker is making or lighting the surface of the pad.
     pub fn is_busy(&self) -> bool {
         self.surface.is_busy()

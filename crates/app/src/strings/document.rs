@@ -16,6 +16,11 @@ pub const SAVE: &str = "Save";
 pub const SAVE_AS: &str = "Save as…";
 pub const KEEP_INSIDE: &str = "Embed library in the project";
 pub const KEEP_INSIDE_HELP: &str = "Stores all textures in the project file, so that you can share the file without its library. Otherwise the project only refers to the library.";
+pub const DRAG_STROKE: &str = "Play while dragging";
+pub const DRAG_STROKE_HELP: &str =
+    "The automatic stroke runs while the point is dragged, so that the change is felt at once";
+pub const HOVER: &str = "Play under the pointer";
+pub const HOVER_HELP: &str = "A texture on the canvas plays while the pointer rests on it";
 pub const TEMPLATE: &str = "Use as template for new projects";
 pub const TEMPLATE_HELP: &str = "New projects start as a copy of this project's file. To stop using a template, choose this command again.";
 pub const TEMPLATE_NEEDS_FILE: &str = "Save the project first: new projects start as a copy of its file.";

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use shagreen_formats::actuator_toml::built_in_actuators;
 
 use super::Window;
+use crate::author::authored_panel::copy_of;
 use crate::author::texture_sheet::TextureSheet;
 use crate::command::Command;
 use crate::panel::Panel;
@@ -30,6 +31,19 @@ impl Window {
             }
             Err(error) => self.session.say(error.to_string()),
         }
+    }
+
+    fn toggle_theme(&mut self, ctx: &egui::Context) {
+        let dark = ctx.theme() == egui::Theme::Dark;
+        self.files.settings.is_light = Some(dark);
+        ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
+    }
+
+    /// Adds a copy of the selected authored texture.
+    fn duplicate(&mut self, ctx: &egui::Context) {
+        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
+        let copy = copy_of(&panel, self.project.texture());
+        self.carry_out(Command::Edit(Edit::Author(copy)), ctx);
     }
 
     /// Executes a command.
@@ -82,11 +96,7 @@ impl Window {
                 None => {}
             },
             Command::ToggleMute => self.session.toggle_mute(),
-            Command::ToggleTheme => {
-                let dark = ctx.theme() == egui::Theme::Dark;
-                self.files.settings.is_light = Some(dark);
-                ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
-            }
+            Command::ToggleTheme => self.toggle_theme(ctx),
             Command::DismissMessage => self.session.forget_message(),
             Command::ListOutputs => self.session.list_outputs(ctx),
             Command::OpenOutput(id) => {
@@ -99,6 +109,9 @@ impl Window {
                 self.session.take_over_output(ctx);
             }
             Command::OpenDevices => self.open_devices(ctx),
+            Command::DuplicateTexture => self.duplicate(ctx),
+            Command::ToggleDragStroke => self.files.settings.is_silent_while_dragging ^= true,
+            Command::ToggleHover => self.files.settings.plays_on_hover ^= true,
             Command::ToggleFreeze => {
                 let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
                 self.pages.stage.scope.toggle_freeze(&panel);

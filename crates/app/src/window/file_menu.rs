@@ -80,6 +80,20 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
             commands.push(Command::File(FileCommand::KeepLibraryInside));
         }
         ui.separator();
+        for (name, help, is_on, command) in [
+            (
+                strings::DRAG_STROKE,
+                strings::DRAG_STROKE_HELP,
+                !files.settings.is_silent_while_dragging,
+                Command::ToggleDragStroke,
+            ),
+            (strings::HOVER, strings::HOVER_HELP, files.settings.plays_on_hover, Command::ToggleHover),
+        ] {
+            if ui.add(Button::selectable(is_on, name)).on_hover_text(help).clicked() {
+                commands.push(command);
+            }
+        }
+        ui.separator();
         let recent =
             files.settings.recent.iter().filter(|path| Some(path.as_path()) != open).take(MOST_RECENT);
         let mut has_recent = false;

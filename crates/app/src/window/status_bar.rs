@@ -9,8 +9,9 @@ use crate::panel::Panel;
 use crate::sheets::devices::output_choice_ui::output_choice_ui;
 use crate::strings;
 
-/// Draws the status bar and returns the commands of the user.
-pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+/// Draws the status bar and returns the commands of the user. `has_canvas` tells that the canvas is visible, which states
+/// the source of the positions itself.
+pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>, has_canvas: bool) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
     ui.horizontal_centered(|ui| {
@@ -52,7 +53,9 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
                 let label = Label::new(RichText::new(strings::PREPARING).color(t.accent)).selectable(false);
                 ui.add(label).on_hover_text(strings::PREPARING_HELP);
             }
-            weak(ui, format!("positions: {}", session.label_source()), strings::SOURCE_HELP);
+            if !has_canvas {
+                weak(ui, format!("positions: {}", session.label_source()), strings::SOURCE_HELP);
+            }
             if session.claimed_output().is_some() {
                 let button = ui.button(strings::TAKE_OVER).on_hover_text(strings::TAKE_OVER_HELP);
                 if button.clicked() {

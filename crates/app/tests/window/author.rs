@@ -3,13 +3,16 @@
 use std::time::{Duration, Instant};
 
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, PointerButton, Pos2};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings;
+use shagreen_app::strings::document;
 use shagreen_core::texture::blend::Mode;
 
-use crate::support::{Author, author, choose_mode, click, drag, unnamed_controls, wait, window};
+use crate::support::{
+    Author, author, choose_mode, click, drag, unnamed_controls, wait, wait_for_field, window,
+};
 
 /// Runs frames for some seconds in real time.
 fn listen(harness: &mut Author, seconds: f64) {
@@ -236,7 +239,7 @@ fn the_mouse_strokes_the_pad() {
     harness.run_steps(1);
     let mut loudest = 0.0_f64;
     for i in 0..80 {
-        harness.hover_at(middle + egui::vec2(100.0 * (f64::from(i) * 0.15).sin() as f32, 0.0));
+        harness.hover_at(middle + vec2(100.0 * (f64::from(i) * 0.15).sin() as f32, 0.0));
         harness.step();
         std::thread::sleep(Duration::from_millis(10));
         loudest = loudest.max(window(&harness).session().scope().rms(0.1));
@@ -274,4 +277,30 @@ fn the_blend_is_chosen_and_a_search_narrows_the_list() {
     harness.run_steps(3);
     assert!(harness.query_by_label("Texture Sanded wood").is_some());
     assert!(harness.query_by_label("Texture Glass").is_none());
+}
+
+/// The point plays while it is dragged, unless that is turned off, and is silent again afterwards.
+#[test]
+fn the_point_plays_while_it_is_dragged() {
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    let from = harness.get_by_role_and_label(Role::Slider, strings::POINT).rect().center();
+    for is_silent in [false, true] {
+        assert!(!window(&harness).session().hand_is_running());
+        harness.drag_at(from);
+        harness.run_steps(2);
+        harness.hover_at(from + vec2(60.0, -20.0));
+        harness.run_steps(3);
+        assert_eq!(window(&harness).session().hand_is_running(), !is_silent);
+        harness.drop_at(from + vec2(60.0, -20.0));
+        harness.run_steps(3);
+        assert!(!window(&harness).session().hand_is_running(), "it stops with the drag");
+        harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        harness.run_steps(3);
+        if !is_silent {
+            click(&mut harness, document::FILE);
+            click(&mut harness, document::DRAG_STROKE);
+            harness.run_steps(3);
+        }
+    }
 }

@@ -195,7 +195,7 @@ fn dropped_tables_become_a_space_that_says_who_judged() {
         let figures = &window(&harness).build().built().unwrap().figures;
         assert!(figures.iter().all(|(_, figure)| figure.title().contains("simulated") == is_simulated));
         use_space(&mut harness);
-        assert!(says(&harness, &format!("positions: {source}")));
+        assert!(says(&harness, &format!("Positions: {source}")));
     }
 }
 

@@ -24,7 +24,7 @@ fn rig(harness: &Author) -> &Rig {
 #[test]
 fn the_sheet_opens_and_closes_by_keys_and_names_everything() {
     let mut harness = author();
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::D);
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::D);
     wait(&mut harness, "the sheet opens", |h| says(h, strings::ACTUATOR));
     assert_eq!(unnamed_controls(&harness), [""; 0]);
     assert!(says(&harness, "48000 Hz, 2 channels"));

@@ -55,10 +55,14 @@ fn the_simulated_library_is_opened_and_says_so_wherever_its_places_are_shown() {
     assert_eq!(library(&harness), read);
     assert_eq!(window(&harness).project().texture().at, point, "the point is where it is");
     assert_ne!(authored(&harness).parents, blend.parents, "its neighbors are others");
-    // In the list, on the canvas and in the status bar.
+    // In the list and on the canvas; where there is no canvas, in the status bar.
     assert!(says(&harness, NOBODY), "{:?}", shown(&harness));
     assert!(shown(&harness).iter().any(|text| text == "Positions: simulated raters"));
+    harness.key_press_modifiers(Modifiers::COMMAND, Workspace::Signals.info().key);
+    harness.run_steps(3);
     assert!(says(&harness, "positions: simulated raters"));
+    harness.key_press_modifiers(Modifiers::COMMAND, Workspace::Author.info().key);
+    harness.run_steps(3);
     harness.get_by_label(&strings::go_to("Cork")).hover();
     wait(&mut harness, "the place says whom it is from", |h| says(h, "(simulated raters)"));
 
@@ -71,7 +75,7 @@ fn the_simulated_library_is_opened_and_says_so_wherever_its_places_are_shown() {
     harness.run_steps(3);
     assert_eq!(library(&harness), read);
     open(&mut harness, built_in_name(BuiltIn::Starter));
-    assert!(says(&harness, "positions: physical labels"));
+    assert!(says(&harness, "Positions: physical labels"));
     assert_eq!(window(&harness).project().texture().at, point);
 }
 

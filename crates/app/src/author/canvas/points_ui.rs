@@ -6,7 +6,7 @@ use shagreen_core::space::authoring::Authored;
 use shagreen_formats::project::AuthoredTexture;
 
 use super::path_tool::PathTool;
-use super::{BIG_STEP, POINT_SIZE, SITE_RADIUS, move_to, point_id};
+use super::{BIG_STEP, POINT_SIZE, SITE_RADIUS, move_to, point_id, site_radius};
 use crate::author::authored_panel::authored_menu;
 use crate::command::Command;
 use crate::look::axes::Axes;
@@ -36,6 +36,9 @@ pub(super) fn authored_points_ui(
     commands.extend(point_ui(ui, axes, panel, tool, t));
     commands
 }
+
+/// Width of the surface that the point shows, in mm.
+const SHOWN_MM: f64 = 9.0;
 
 /// Interaction of the authored points: only hovering while a path is drawn, so that clicks and drags reach the canvas.
 fn point_sense(tool: &PathTool) -> Sense {
@@ -98,10 +101,19 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tok
         lines_to_parents(ui, axes, panel, authored, t);
         outside_ui(ui, axes, panel, authored, t);
     }
-    let grown = if response.hovered() || response.dragged() || response.has_focus() { 11.0 } else { 9.0 };
-    ui.painter().circle_filled(pos, grown + 2.0, t.background);
+    let is_grown = response.hovered() || response.dragged() || response.has_focus();
+    let grown = if is_grown { 13.0 } else { 11.0 } * site_radius(axes) / SITE_RADIUS;
+    ui.painter().circle_filled(pos, grown + 2.5, t.background);
     ui.painter().circle_filled(pos, grown, t.accent);
-    ui.painter().circle_filled(pos, 4.5, t.on_accent);
+    // The surface at this point, as on the pad.
+    if let Some((surface, [width_mm, height_mm])) = panel.pictures.surface() {
+        let part = vec2((SHOWN_MM / width_mm) as f32, (SHOWN_MM / height_mm) as f32);
+        let uv = Rect::from_min_size(egui::Pos2::ZERO, part);
+        let inner = Rect::from_center_size(pos, vec2(2.0, 2.0) * (grown - 2.5));
+        let disc = egui::epaint::RectShape::filled(inner, grown - 2.5, egui::Color32::WHITE);
+        ui.painter().add(disc.with_texture(surface, uv));
+    }
+    ui.painter().circle_filled(pos, 4.0, t.background);
     ui.painter().circle_filled(pos, 3.0, t.authored[usize::from(texture.color)]);
     if response.has_focus() {
         ui.painter().circle_stroke(pos, grown + 4.0, Stroke::new(1.5, t.accent));
@@ -116,7 +128,7 @@ fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored,
         if let Some(site) = panel.session.space().position(*texture) {
             let width = 1.0 + 4.0 * (*weight as f32).clamp(0.0, 1.0);
             let site = axes.ui_from_space(site);
-            let start = site + (on - site).normalized() * SITE_RADIUS.min((on - site).length());
+            let start = site + (on - site).normalized() * site_radius(axes).min((on - site).length());
             ui.painter().line_segment([on, start], Stroke::new(width, color.gamma_multiply(0.75)));
         }
     }

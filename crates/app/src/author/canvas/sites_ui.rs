@@ -6,7 +6,7 @@ use shagreen_formats::library::TextureEntry;
 
 use super::path_tool::{PathTool, added};
 use super::site_labels::{Around, site_labels};
-use super::{POINT_SIZE, SITE_RADIUS};
+use super::{POINT_SIZE, SITE_RADIUS, site_radius};
 use crate::author::locks::lock_mark;
 use crate::author::texture_menu::texture_menu;
 use crate::author::texture_picture::place_in_words;
@@ -20,7 +20,7 @@ use crate::strings::{self};
 /// Maximum number of textures shown as pictures; if there are more, each texture is a dot.
 const MAX_PICTURES: usize = 60;
 
-/// Draws the textures; a click moves the authored point to one of them. Texture names avoid the axis labels in `words`.
+/// Draws the textures; a click chooses one. Returns the commands, and the texture under the pointer. Texture names avoid the axis labels in `words`.
 pub(super) fn sites_ui(
     ui: &mut Ui,
     axes: Axes,
@@ -29,11 +29,11 @@ pub(super) fn sites_ui(
     words: &[Rect],
     on_map: bool,
     t: &Tokens,
-) -> Vec<Command> {
-    let mut commands = Vec::new();
+) -> (Vec<Command>, Option<usize>) {
+    let (mut commands, mut under_pointer) = (Vec::new(), None);
     let sites = panel.session.space().sites();
     let with_pictures = sites.len() <= MAX_PICTURES;
-    let radius = if with_pictures { SITE_RADIUS } else { 3.0 };
+    let radius = if with_pictures { site_radius(axes) } else { 3.0 };
     // Contributing textures are drawn last, on top of the others.
     let rank = |texture: usize| panel.session.parent_rank(texture);
     let mut order: Vec<&(usize, SpacePoint)> = sites.iter().collect();
@@ -51,6 +51,9 @@ pub(super) fn sites_ui(
             commands.extend(added);
         }
         site(ui, panel, *texture, pos, radius, &response, t);
+        if response.hovered() {
+            under_pointer = Some(*texture);
+        }
         if response.hovered() || response.has_focus() {
             pointed = Some(*texture);
         }
@@ -67,7 +70,7 @@ pub(super) fn sites_ui(
         .collect();
     let point = Rect::from_center_size(axes.ui_from_space(panel.project.texture().at), POINT_SIZE);
     site_labels(ui, panel, &named, radius, &Around { words, point, on_map }, pointed, t);
-    commands
+    (commands, under_pointer)
 }
 
 /// Command that chooses a texture of the library: exactly this one, not the smooth field at its position.

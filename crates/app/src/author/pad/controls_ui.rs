@@ -1,12 +1,12 @@
 //! Row above the stroke pad: the automatic stroke, its settings, and recording.
 
-use egui::{Button, ComboBox, PointerButton, Slider, Ui, vec2};
+use egui::{Button, ComboBox, PointerButton, RichText, Slider, Ui, vec2};
 use shagreen_device::hand::Path;
 
 use super::{FORCES_N, PadState, SPEEDS_MM_PER_S};
 use crate::command::Command;
 use crate::command::stroke::StrokeCommand;
-use crate::look::theme::GAP;
+use crate::look::theme::{GAP, tokens};
 use crate::panel::Panel;
 use crate::session::Session;
 use crate::strings::{self, stroke};
@@ -27,7 +27,14 @@ pub(super) fn controls_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) 
     ui.horizontal(|ui| {
         let running = session.hand_is_running();
         let text = if running { strings::HAND_STOP } else { strings::HAND_START };
-        let button = Button::new(text).selected(running).min_size(vec2(BUTTON_WIDTH, 0.0));
+        // The one primary action of the page.
+        let t = tokens(ui.ctx());
+        let button = if running {
+            Button::new(text).selected(true)
+        } else {
+            Button::new(RichText::new(text).strong().color(t.on_accent)).fill(t.accent)
+        };
+        let button = button.min_size(vec2(BUTTON_WIDTH, 0.0));
         if ui.add(button).on_hover_text(strings::HAND_HELP).clicked() {
             commands.push(Command::ToggleHand);
         }

@@ -1,0 +1,73 @@
+//! Preview: the point plays while it is dragged, and a texture plays while the pointer rests on it. Both use the automatic
+//! stroke, and both can be turned off.
+
+use std::borrow::Cow;
+use std::time::{Duration, Instant};
+
+use egui::Context;
+use shagreen_formats::project::Project;
+
+use super::Window;
+use crate::command::Command;
+use crate::state::edit::Edit;
+use crate::workspace::Workspace;
+
+/// Time for which the pointer must rest on a texture.
+const REST: Duration = Duration::from_millis(350);
+
+/// What is previewed.
+#[derive(Default)]
+pub(super) struct Preview {
+    /// Whether the point is being dragged.
+    is_dragging: bool,
+    /// Texture under the pointer, and the time since which it is there.
+    pointed: Option<(usize, Instant)>,
+    /// Whether the automatic stroke was started by the preview, which will stop it.
+    is_stroking: bool,
+}
+
+impl Preview {
+    /// Texture that plays because the pointer rests on it.
+    fn auditioned(&self) -> Option<usize> {
+        self.pointed.filter(|(_, since)| since.elapsed() >= REST).map(|(texture, _)| texture)
+    }
+}
+
+impl Window {
+    /// Starts and stops the stroke of the preview. `commands` are those of this frame.
+    pub(super) fn follow_preview(&mut self, commands: &[Command], ctx: &Context) {
+        let is_author = self.pages.workspace == Workspace::Author && !self.sheet.is_open();
+        let is_held = ctx.input(|i| i.pointer.primary_down());
+        let is_moved = |command: &Command| matches!(command, Command::Edit(Edit::MovePoint(_)));
+        let may_drag = is_author && !self.files.settings.is_silent_while_dragging;
+        let dragged = self.preview.is_dragging || commands.iter().any(is_moved);
+        self.preview.is_dragging = may_drag && is_held && dragged && ctx.dragged_id().is_some();
+        let may_point = is_author && self.files.settings.plays_on_hover && !is_held;
+        let pointed = self.pages.author.canvas.pointed.filter(|_| may_point);
+        if self.preview.pointed.map(|(texture, _)| texture) != pointed {
+            self.preview.pointed = pointed.map(|texture| (texture, Instant::now()));
+        }
+        if self.preview.pointed.is_some() {
+            ctx.request_repaint_after(REST);
+        }
+        let is_wanted = self.preview.is_dragging || self.preview.auditioned().is_some();
+        if commands.iter().any(|command| matches!(command, Command::ToggleHand)) {
+            // The user takes the stroke over.
+            self.preview.is_stroking = false;
+        } else if is_wanted && !self.session.hand_is_running() && !self.preview.is_stroking {
+            self.session.set_hand(Some(self.pages.stage.pad.input()));
+            self.preview.is_stroking = true;
+        } else if !is_wanted && std::mem::take(&mut self.preview.is_stroking) {
+            self.session.set_hand(None);
+        }
+    }
+
+    /// The project, with the texture under the pointer alone.
+    pub(super) fn previewed_project(&self) -> Cow<'_, Project> {
+        let alone = self.preview.auditioned().and_then(|texture| self.session.textures().get(texture));
+        match alone {
+            Some(entry) => Cow::Owned(Project { solo: Some(entry.id.clone()), ..self.project.clone() }),
+            None => Cow::Borrowed(&self.project),
+        }
+    }
+}
