@@ -59,7 +59,7 @@ pub fn run(start: Start) -> anyhow::Result<WindowTimes> {
         .with_inner_size([1280.0, 720.0])
         .with_min_inner_size([960.0, 600.0]);
     let options =
-        eframe::NativeOptions { viewport, system_font_fallback: false, ..eframe::NativeOptions::default() };
+        eframe::NativeOptions { viewport, system_font_fallback: true, ..eframe::NativeOptions::default() };
     let times = Rc::new(RefCell::new(WindowTimes::default()));
     let measured = Rc::clone(&times);
     eframe::run_native(

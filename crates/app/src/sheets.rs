@@ -138,7 +138,7 @@ impl Sheet {
             Self::Shortcuts => shortcuts_ui(ctx).into_iter().collect(),
             Self::Guide(sheet) => sheet.show(ctx),
             Self::Palette(sheet) => sheet.show(ctx),
-            Self::Leaving(leave) => leaving_ui(ctx, *leave, &document.name()),
+            Self::Leaving(leave) => leaving_ui(ctx, *leave, &document.name(), document.is_changed()),
             Self::Conflict(conflict) => conflict_ui(ctx, conflict, &document.name()),
             Self::Recovered(leftovers) => recovered_ui(ctx, leftovers),
         };

@@ -146,6 +146,8 @@ pub const LOAD_HELP: &str =
     "Share of the available processing time that audio rendering uses, in percent. At 100 %, dropouts begin.";
 pub const DROPOUTS_HELP: &str = "Number of times the output ran out of samples (underruns).";
 pub const LEVEL_HELP: &str = "Level of the texture before mute and limiter: root mean square acceleration over about 50 ms, in dB re 1 m/s².";
+pub const OPEN_AGAIN: &str = "Open again";
+pub const OPEN_AGAIN_HELP: &str = "The output is gone. Connect it again, then open it";
 pub const STALLED: &str = "The output has stopped requesting samples; choose it again";
 pub const LIMITING: &str = "limiting";
 pub const SOURCE_HELP: &str = "Source of the texture positions. Positions from physical labels or simulated raters are not human ratings.";

@@ -133,7 +133,8 @@ pub fn canvas_ui(
     commands.extend(bar.commands);
     state.view = bar.view.unwrap_or(state.view);
     state.bar_height = bar.height;
-    foot_ui(ui, axes, panel, t);
+    let asks_for_path = state.tool.is_on && panel.project.texture().path.is_none();
+    foot_ui(ui, axes, panel, asks_for_path, t);
     commands
 }
 

@@ -8,17 +8,30 @@ use crate::look::theme::{GAP, tokens};
 use crate::state::leave::Leave;
 use crate::strings::document as strings;
 
-/// Draws the question over the window; returns the requested commands.
-pub(crate) fn leaving_ui(ctx: &Context, leave: Leave, project: &str) -> Vec<Command> {
+/// Draws the question over the window; returns the requested commands. `is_changed` states whether the project has
+/// unsaved changes; otherwise only painted signals would be lost, which are not part of a project.
+pub(crate) fn leaving_ui(ctx: &Context, leave: Leave, project: &str, is_changed: bool) -> Vec<Command> {
     let t = tokens(ctx);
     let mut commands = Vec::new();
     sheet(ctx, "leaving", |ui| {
         ui.set_width(420.0);
-        ui.add(Label::new(RichText::new(strings::LEAVE_TITLE).heading().strong()).selectable(false));
+        let title = if is_changed { strings::LEAVE_TITLE } else { strings::LEAVE_PAINTING };
+        ui.add(Label::new(RichText::new(title).heading().strong()).selectable(false));
         ui.add_space(GAP);
-        ui.add(Label::new(strings::would_be_lost(project)).wrap());
+        let lost =
+            if is_changed { strings::would_be_lost(project) } else { strings::PAINTING_LOST.to_owned() };
+        ui.add(Label::new(lost).wrap());
         ui.add_space(GAP);
         ui.horizontal(|ui| {
+            if !is_changed {
+                if ui.button(strings::LEAVE_IT).clicked() {
+                    commands.push(Command::File(FileCommand::LeaveUnsaved(leave)));
+                }
+                if ui.button(strings::CANCEL).clicked() {
+                    commands.push(Command::CloseSheet);
+                }
+                return;
+            }
             let save = Button::new(RichText::new(strings::SAVE_FIRST).color(t.on_accent)).fill(t.accent);
             let save = ui.add(save);
             if ui.memory(|memory| memory.focused().is_none()) {

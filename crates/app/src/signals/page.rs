@@ -234,6 +234,11 @@ impl SignalsPage {
         self.editor.labels()
     }
 
+    /// Whether B was edited by hand, which no project keeps.
+    pub(crate) fn has_unsaved_painting(&self) -> bool {
+        self.editor.labels()[0].is_some()
+    }
+
     /// Undoes the last change of B.
     pub(crate) fn undo(&mut self) {
         if let Some(then) = self.signal(Slot::B).map(Arc::clone).and_then(|now| self.editor.undo(&now)) {

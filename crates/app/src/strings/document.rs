@@ -40,6 +40,9 @@ pub const OPENING: &str = "Opening…";
 pub const CANCEL: &str = "Cancel";
 
 // Saving.
+pub const LEAVE_PAINTING: &str = "Leave the painted signal?";
+pub const PAINTING_LOST: &str = "Signal B in Signals was edited, and signals are not part of a project. To keep it, cancel, press Feel at B, and use File > Export as WAV.";
+pub const LEAVE_IT: &str = "Leave it";
 pub const LEAVE_TITLE: &str = "Save the changes first?";
 pub const SAVE_FIRST: &str = "Save";
 pub const DO_NOT_SAVE: &str = "Don't save";

@@ -5,6 +5,7 @@ pub const PATH_HELP: &str = "Draws a path through the space: press and drag, or 
 pub const PLAY: &str = "Play path";
 pub const STOP: &str = "Stop path";
 pub const PLAY_HELP: &str = "During a stroke, the texture changes along the path; each touch starts at the beginning of the path. The authored point does not move, and its texture plays again when you stop the path.";
+pub const DRAW_ONE: &str = "Press and drag through the space, or click points and textures.";
 pub const WAITS: &str = "Stroke the pad: the texture changes along the path.";
 pub const LENGTH: &str = "Length of the path";
 pub const LENGTH_HELP: &str =

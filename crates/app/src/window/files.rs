@@ -40,7 +40,8 @@ impl Window {
             self.session.say(message);
         }
         let wants_to_close = ctx.input(|i| i.viewport().close_requested());
-        if wants_to_close && !self.files.is_closing && self.files.document.is_changed() {
+        let would_lose = self.files.document.is_changed() || self.pages.signals.has_unsaved_painting();
+        if wants_to_close && !self.files.is_closing && would_lose {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);
             self.sheet = Sheet::Leaving(Leave::Quit);
         }
@@ -216,7 +217,8 @@ impl Window {
     fn leave(&mut self, leave: Leave, ctx: &Context) {
         // The project may have changed since the last frame.
         self.files.document.follow(&self.project, self.history.revision());
-        if self.files.document.is_changed() {
+        let loses_painting = leave == Leave::Quit && self.pages.signals.has_unsaved_painting();
+        if self.files.document.is_changed() || loses_painting {
             self.sheet = Sheet::Leaving(leave);
         } else {
             self.go(leave, ctx);

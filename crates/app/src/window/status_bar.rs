@@ -1,6 +1,6 @@
 //! Status bar: output, latency and messages.
 
-use egui::{Label, RichText, Sense, Ui};
+use egui::{Button, Label, RichText, Sense, Ui};
 use shagreen_device::status::LinkState;
 
 use crate::command::Command;
@@ -8,6 +8,22 @@ use crate::look::theme::tokens;
 use crate::panel::Panel;
 use crate::sheets::devices::output_choice_ui::output_choice_ui;
 use crate::strings;
+
+/// Time for which an output must have stalled before the status bar says so, in seconds: opening it again takes less.
+const STALLED_SECS: f64 = 2.0;
+
+/// Whether the output has stalled for [`STALLED_SECS`].
+fn has_stalled_for_long(ui: &Ui, is_stalled: bool) -> bool {
+    let id = egui::Id::unique("stalled since");
+    let now = ui.input(|i| i.time);
+    ui.data_mut(|data| {
+        if !is_stalled {
+            data.remove::<f64>(id);
+            return false;
+        }
+        now - *data.get_temp_mut_or(id, now) >= STALLED_SECS
+    })
+}
 
 /// Draws the status bar and returns the commands of the user. `has_canvas` tells that the canvas is visible, which states
 /// the source of the positions itself.
@@ -31,8 +47,16 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>, has_canvas: bool) -> Vec<Comman
             } else if session.is_limiting() {
                 ui.colored_label(t.warning, strings::LIMITING).on_hover_text(strings::LIMITING_HELP);
             }
-            if status.state == LinkState::Stalled {
+            if has_stalled_for_long(ui, status.state == LinkState::Stalled) {
                 ui.colored_label(t.warning, strings::STALLED);
+            }
+            if status.state == LinkState::Lost
+                && let Some(id) = session.output_id()
+            {
+                let again = Button::new(RichText::new(strings::OPEN_AGAIN).color(t.on_accent)).fill(t.accent);
+                if ui.add(again).on_hover_text(strings::OPEN_AGAIN_HELP).clicked() {
+                    commands.push(Command::OpenOutput(id.to_owned()));
+                }
             }
             let late = session.latency_ms().map_or(String::new(), |ms| format!("latency about {ms:.0} ms"));
             weak(ui, late, strings::LATENCY_HELP);

@@ -18,9 +18,10 @@ const DEPTH: f32 = 43.0;
 /// Barycentric weight up to which the point counts as near the opposite edge of the triangle.
 const NEAR_AN_EDGE: f64 = 0.05;
 
-/// Draws the message, if there is one.
-pub(super) fn foot_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
-    let Some((text, color)) = foot(panel, t) else { return };
+/// Draws the message, if there is one. With `asks_for_path`, it says how a path is drawn.
+pub(super) fn foot_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, asks_for_path: bool, t: &Tokens) {
+    let asked = asks_for_path.then(|| (strings::path::DRAW_ONE.to_owned(), t.accent));
+    let Some((text, color)) = asked.or_else(|| foot(panel, t)) else { return };
     let width = (axes.rect.width() - 2.0 * SIDE_ROOM).max(SIDE_ROOM);
     let mut job = egui::text::LayoutJob::simple(text, FontId::proportional(12.5), color, width);
     job.halign = egui::Align::Center;
