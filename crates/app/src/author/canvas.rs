@@ -201,7 +201,8 @@ fn grid(ui: &Ui, axes: Axes, outer: Rect, [across, up]: &[[String; 2]; 2], t: &T
     for (text, y) in [(&up[1], r.top()), (&up[0], r.bottom())] {
         let galley = painter.layout_no_wrap(text.clone(), font.clone(), t.text_weak);
         let size = galley.size();
-        let y = if y == r.top() { y + size.x } else { y };
+        // Beside the corner, where the picture of a texture may lie.
+        let y = if y == r.top() { y + size.x } else { y - site_radius(axes) - 6.0 };
         let pos = pos2(outer.left() + 8.0, y);
         let shape = egui::epaint::TextShape::new(pos, galley, t.text_weak);
         painter.add(Shape::Text(shape.with_angle(-std::f32::consts::FRAC_PI_2)));
