@@ -184,7 +184,8 @@ pub fn write_wav(path: &Path, samples: &[f32], sidecar: &SidecarV1) -> Result<()
     write_wav_as(path, samples, sidecar, WavEncoding::default())
 }
 
-/// As [`write_wav`], in another encoding. The `full_scale` of the sidecar is set to the acceleration of a sample of 1.
+/// As [`write_wav`], in another encoding. The `full_scale` of the sidecar that is written follows the scaling, so that it
+/// still states the acceleration of a sample of 1.
 ///
 /// # Errors
 /// See [`WavWriteError`]; existing files are then unchanged.
@@ -199,8 +200,9 @@ pub fn write_wav_as(
         return Err(WavWriteError::Name { path: path.to_path_buf() });
     }
     check_length(samples.len() as u64)?;
-    let full_scale = encoding.full_scale(samples);
-    let wav = pack(samples, full_scale, sidecar.rate_hz, encoding.samples)?;
+    let scale = encoding.full_scale(samples);
+    let wav = pack(samples, scale, sidecar.rate_hz, encoding.samples)?;
+    let full_scale = scale * sidecar.full_scale;
     // One line per field, and one per row of the trace.
     let json = layout::to_bytes(&SidecarV1 { full_scale, ..sidecar.clone() }, 2);
     atomic::write_all(&[(path, &wav), (&beside, &json)])?;
