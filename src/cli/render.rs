@@ -8,10 +8,11 @@ use serde_json::json;
 use shagreen_core::space::LabelSource;
 use shagreen_core::texture::render::Hand;
 use shagreen_core::units::{Contact, Hertz};
+use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::library::Library;
 use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav_as};
 use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
-use shagreen_studio::render::{SampleFormat, looped, n_for_loop, render_along, render_mixture};
+use shagreen_studio::render::{SEAM_SECS, SampleFormat, looped, n_for_loop, render_along, render_mixture};
 use shagreen_studio::report::Reporter as _;
 
 use crate::cli::motion::{Motion, MotionArgs, motion};
@@ -177,6 +178,9 @@ fn samples(
         Watched { motion, progress: Progress::new("ms rendered", output::in_ms(motion.seconds())) };
     let rate = Hertz(f64::from(rate_hz));
     let n = (motion.seconds() * rate.0).round() as usize;
+    if args.loops && motion.seconds() > MAX_TRACK_SECS - SEAM_SECS {
+        bail!("a loop lasts at most {} s; choose a shorter duration", MAX_TRACK_SECS - SEAM_SECS);
+    }
     let seconds = if args.loops { n_for_loop(n, rate) as f64 / rate.0 } else { motion.seconds() };
     let format = SampleFormat { rate, seconds, seed: args.seed };
     let samples = if let Some(path) = &chosen.path {

@@ -143,7 +143,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     result.extend(more.as_object().cloned().unwrap_or_default());
     output::print(args.json, &Value::Object(result), || {
         format!(
-            "Leave-one-texture-out errors over {}; trained on {learned_from}. The labels of drawn materials (random parameters) are computed; no person rated them.\n\n{}",
+            "{} {}; trained on {learned_from}. The labels of drawn materials (random parameters) are computed; no person rated them.\n\n{}",
+            if args.drawn_only {
+                "Errors, with no texture used for training, over"
+            } else {
+                "Leave-one-texture-out errors over"
+            },
             counted(textures.len(), "texture"),
             comparison.text()
         )
@@ -193,7 +198,7 @@ fn teach(
     };
     let of_all = if args.out.is_some() || args.drawn_only { Some(learn(None)?) } else { None };
     let n_judged = if args.unjudged { 0 } else { known.len() };
-    let progress = Progress::new("textures left out", n_judged);
+    let progress = Progress::new("textures predicted", n_judged);
     let mut predicted = Vec::with_capacity(n_judged);
     for (index, left_out) in known.iter().enumerate().take(n_judged) {
         let estimates = match &of_all {

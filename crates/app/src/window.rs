@@ -53,7 +53,7 @@ use crate::window::status_bar::status_ui;
 use crate::window::tour::Tour;
 use crate::workspace::Workspace;
 
-/// Interval of frames while nothing happens, for the status bar.
+/// Interval between frames while the window is idle, so that the status bar stays current.
 const IDLE: std::time::Duration = std::time::Duration::from_secs(2);
 
 /// Initial content of the window.
@@ -63,7 +63,7 @@ pub struct Begin {
     pub project: Project,
     /// File of the project, or `None` for an unsaved project.
     pub file: Option<DocumentFile>,
-    /// File to take at once that is neither a project nor a library, such as a recording, a stroke or a photo.
+    /// File to open or import at the start, neither a project nor a library: a recording, a model, a stroke or a photo.
     pub take: Option<PathBuf>,
     /// Output to open.
     pub output: OutputChoice,
@@ -98,7 +98,7 @@ pub struct Window {
     exports_folder: PathBuf,
     output: SelectedOutput,
     preview: Preview,
-    /// File to take in the second frame.
+    /// File to open or import in the second frame.
     take: Option<PathBuf>,
 }
 
@@ -211,7 +211,7 @@ impl Window {
         if self.has_been_shown {
             self.session.begin_work(&ctx);
             self.pictures.begin_work(&ctx);
-            if let Some(path) = self.take.take() {
+            if let Some(path) = self.take.take_if(|_| !self.sheet.is_open()) {
                 self.carry_out(Command::File(FileCommand::Open(path)), &ctx);
             }
         } else {
@@ -281,7 +281,7 @@ impl Window {
         if self.pages.workspace == Workspace::Author && !self.sheet.is_open() && self.tour.show(&ctx) {
             self.files.settings.has_seen_tour = true;
         }
-        self.follow_preview(&commands, &ctx);
+        self.follow_preview(&mut commands, &ctx);
         for command in commands {
             self.carry_out(command, &ctx);
         }
@@ -304,7 +304,7 @@ impl Window {
         self.compared_texture().or_else(|| self.project.solo.is_none().then(selected))
     }
 
-    /// Sets a loaded photo as the picture of the texture on which it was dropped.
+    /// Sets a loaded photo as the picture of the texture that was selected when the photo was dropped.
     fn collect_photo(&mut self, ctx: &egui::Context) {
         match self.readers.photo.collect() {
             // The texture may have been deleted in the meantime.
@@ -341,7 +341,8 @@ impl Window {
         self.files.settings.scale = self.scale.wanted();
     }
 
-    /// Requests continuous frames while something is playing. Otherwise only the status bar can change by itself: input,
+    /// Requests continuous frames while something is playing. Otherwise only the status bar and the notice of a long
+    /// computation can change by themselves: input,
     /// the pen and background jobs request their own frames.
     fn keep_going(&self, ctx: &egui::Context) {
         let sounding = self.session.touch().contact.force_n > 0.0 || self.session.scope().rms(0.5) > 1e-4;

@@ -24,13 +24,15 @@ pub struct TextureError {
 
 fn explain(reason: texture::TextureError) -> &'static str {
     match reason {
-        texture::TextureError::Order => "the order is zero or too high",
-        texture::TextureError::Range => "the rate, maximum speed or maximum force is not a positive number",
-        texture::TextureError::Triangle => {
-            "there is no triangle, or a triangle refers to a node that does not exist"
+        texture::TextureError::Order => {
+            "the AR order is zero or too high, the moving-average order is too high, or a moving average has no excitation"
         }
-        texture::TextureError::Excitation => "some nodes have an excitation and others do not",
-        texture::TextureError::Number => "a value is not finite, or frequencies do not ascend",
+        texture::TextureError::Range => "the rate, maximum speed or maximum force is not positive and finite",
+        texture::TextureError::Triangle => {
+            "there are no or too many triangles, or one refers to a node or neighbor that does not exist"
+        }
+        texture::TextureError::Excitation => "the number of excitations differs from the number of nodes",
+        texture::TextureError::Number => "a value is negative or not finite, or frequencies do not ascend",
         _ => "it violates a rule of the renderer",
     }
 }

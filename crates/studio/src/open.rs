@@ -1,5 +1,6 @@
 //! Opening of files: a project with its library, or a library.
 
+use std::io::Read as _;
 use std::path::Path;
 
 use anyhow::{Context as _, anyhow};
@@ -10,14 +11,23 @@ use shagreen_formats::project::{LibraryFile, Project, ProjectError, read_project
 
 use crate::file::{folder_of, in_file, is_special};
 
+/// Bytes at the beginning of a file that tell its kind.
+const HEAD_BYTES: u64 = 256;
 /// Endings of the names of files that the window takes although they are neither projects nor libraries: recordings,
 /// models, strokes and photos.
 pub const OTHER_ENDINGS: [&str; 9] = ["wav", "csv", "tsv", "txt", "xml", "svc", "jpg", "jpeg", "png"];
 
-/// Returns whether the ending of a file's name is one of [`OTHER_ENDINGS`].
+/// Returns whether a file is of such a kind: its name has one of [`OTHER_ENDINGS`], and it does not begin like a project
+/// or a library, which may have any name.
 pub fn is_other_kind(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    ending.is_some_and(|ending| OTHER_ENDINGS.contains(&ending.as_str()))
+    ending.is_some_and(|ending| OTHER_ENDINGS.contains(&ending.as_str())) && !begins_like_json(path)
+}
+
+fn begins_like_json(path: &Path) -> bool {
+    let mut head = Vec::new();
+    let read = bounded_file::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
+    read.is_ok() && head.iter().find(|byte| !byte.is_ascii_whitespace()) == Some(&b'{')
 }
 
 /// What a file contains.

@@ -72,8 +72,15 @@ pub fn refuse_foreign_signal(out: &Path) -> anyhow::Result<()> {
 /// # Errors
 /// Textures would be lost.
 pub fn refuse_lost_textures(output: &Path, library: &Library) -> anyhow::Result<()> {
-    let Ok(bytes) = bounded_file::read(output, FileKind::Document) else { return Ok(()) }; // Nothing is there, or writing it fails.
-    let Ok(present) = read_library(&bytes) else { return Ok(()) };
+    if !output.is_file() {
+        return Ok(()); // Nothing is there, or writing it fails.
+    }
+    let present = bounded_file::read(output, FileKind::Document)
+        .map_err(anyhow::Error::from)
+        .and_then(|bytes| Ok(read_library(&bytes)?));
+    let Ok(present) = present else {
+        bail!("the file there is not a library that can be read; choose another name: {}", output.display());
+    };
     let stays = |lost: &&TextureEntry| library.textures.iter().any(|texture| texture.id == lost.id);
     let lost: Vec<&TextureEntry> = present.value.textures.iter().filter(|texture| !stays(texture)).collect();
     let Some(first) = lost.first() else { return Ok(()) };

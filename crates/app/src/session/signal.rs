@@ -4,8 +4,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use shagreen_core::space::LabelSource;
-use shagreen_core::space::authoring::Authored;
+use shagreen_core::space::authoring::{Authored, Voice};
 use shagreen_core::space::texture_path::TexturePath;
+use shagreen_core::texture::plane::Plane;
 use shagreen_core::texture::tap::Tap;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Provenance, TextureEntry};
@@ -13,7 +14,6 @@ use shagreen_formats::project::{AuthoredTexture, Project};
 use shagreen_formats::wav::{ParentV1, SidecarV1};
 
 use super::Session;
-use super::audible::Audible;
 use crate::session::kept_path::drawn_path;
 use crate::state::bench_signal::BenchSignal;
 use crate::state::document::CREATED_BY;
@@ -79,9 +79,12 @@ impl Session {
         }
         let of = |texture: &Arc<AuthoredTexture>| {
             let authored = self.authoring().author(texture.at, &self.blending(&texture.blend))?;
-            let heard = Audible::new(&authored, &self.textures.planes, 0);
-            let voices = heard.voices.iter().map(|voice| (Arc::clone(&voice.plane), voice.share));
-            let sounding = Sounding::Mix(voices.collect(), heard.mixing);
+            let plane_of = |(voice, share): (Voice<'_>, f64)| match voice {
+                Voice::Texture(texture) => (Arc::clone(&self.textures.planes[texture]), share),
+                Voice::Made(model) => (Arc::new(Plane::new(model)), share),
+            };
+            let voices = authored.voices().into_iter().map(plane_of).collect();
+            let sounding = Sounding::Mix(voices, authored.mixing());
             let file = SignalFile {
                 tap: self.tap_of(&authored),
                 ..self.signal_of(sounding, &authored.parents, contact)
@@ -138,6 +141,8 @@ impl Session {
             return Err(strings::PREPARING.to_owned());
         }
         let model = authored.model.clone().ok_or(strings::NO_MODEL)?;
+        // Far beyond the textures, a blend may be what no file may hold.
+        model.check_stable().map_err(|error| error.to_string())?;
         let name = &compared.unwrap_or(project.texture()).name;
         let parents: Vec<usize> = authored.parents.iter().map(|(texture, _)| *texture).collect();
         Ok(self.textures.library.entry_of_point(name, authored.location.at, model, &parents))

@@ -225,10 +225,13 @@ impl SaveSheet {
                 several: false,
             };
             let chosen = ui.add_enabled_ui(!is_saving, |ui| self.browse.show(ui, field_name, &asked)).inner;
-            if let Some(chosen) = chosen.into_iter().next() {
+            if let Some(chosen) = chosen.into_iter().next().filter(|_| !is_saving) {
                 // The dialog has asked before it gave the name of an existing file, and asks better.
                 self.path = chosen.display().to_string();
-                self.state = if chosen.exists() { State::Exists(self.path.clone()) } else { State::Asking };
+                // For several files the dialog has asked about one only.
+                let is_one = !matches!(&self.subject, Subject::Signal(export) if export.is_all);
+                self.state =
+                    if chosen.exists() && is_one { State::Exists(self.path.clone()) } else { State::Asking };
             }
             field
         });

@@ -123,6 +123,17 @@ impl LitSurface {
     /// The surface with its width and height in mm, if there is one, under a light from this direction as soon as a
     /// worker has lit it.
     pub(crate) fn show(&mut self, ctx: &Context, light: u8) -> Option<(TextureId, [f64; 2])> {
+        self.collect(ctx);
+        let shown = self.shown.as_ref()?;
+        if shown.light != light && !self.job.is_busy() {
+            let surface = Arc::clone(&shown.surface);
+            self.job.ask(ctx, move || Made { image: surface.lit(light), surface, light });
+        }
+        Some((shown.texture.id(), shown.surface.size_mm))
+    }
+
+    /// Takes in what the worker has made.
+    pub(crate) fn collect(&mut self, ctx: &Context) {
         if let Some(Ok(Made { surface, light, image })) = self.job.collect(ctx) {
             let texture = match self.shown.take() {
                 Some(Shown { mut texture, .. }) => {
@@ -133,12 +144,6 @@ impl LitSurface {
             };
             self.shown = Some(Shown { surface, light, texture });
         }
-        let shown = self.shown.as_ref()?;
-        if shown.light != light && !self.job.is_busy() {
-            let surface = Arc::clone(&shown.surface);
-            self.job.ask(ctx, move || Made { image: surface.lit(light), surface, light });
-        }
-        Some((shown.texture.id(), shown.surface.size_mm))
     }
 }
 

@@ -86,6 +86,7 @@ impl Pictures {
             return;
         }
         self.generation += 1;
+        self.surface.clear();
         (self.library, self.joined) = (library.clone(), joined.to_vec());
         let before = self.fingerprints.iter().zip(textures);
         let n_kept = before.take_while(|((known, _), t)| *known == fingerprint(t.picture.as_ref())).count();
@@ -172,6 +173,7 @@ impl Pictures {
         light: u8,
     ) -> Option<(TextureId, [f64; 2])> {
         let wanted: Shares = parents.iter().map(|(i, w)| (*i, (w * 1000.0).round() as u32)).collect();
+        self.surface.collect(ctx);
         if self.blended.as_ref() != Some(&wanted) && !self.surface.is_busy() {
             let sources = parents.iter().map(|(i, w)| Some((Arc::clone(self.pixels.get(*i)?.as_ref()?), *w)));
             if let Some(sources) = sources.collect::<Option<Vec<(Arc<Rgb>, f64)>>>() {

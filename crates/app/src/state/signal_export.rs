@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use shagreen_formats::bounded_file::{self, FileKind};
-use shagreen_formats::library::id_from_name;
+use shagreen_formats::library::{free_id, id_from_name};
 
 use crate::state::signal_file::{SignalFile, SignalOptions};
 use crate::strings::signal as strings;
@@ -53,10 +53,7 @@ impl SignalExport {
         let folder = path.parent().unwrap_or(Path::new(""));
         let mut names: Vec<String> = Vec::new();
         for (name, _) in &self.all {
-            let id = id_from_name(name);
-            let same =
-                names.iter().filter(|other| **other == id || other.starts_with(&format!("{id}-"))).count();
-            names.push(if names.contains(&id) { format!("{id}-{}", same + 1) } else { id });
+            names.push(free_id(&id_from_name(name), |id| names.iter().any(|other| other == id)));
         }
         names.iter().map(|name| folder.join(name).with_extension("wav")).collect()
     }
@@ -79,6 +76,9 @@ impl SignalExport {
     pub fn would_replace(&self, path: &Path) -> Result<bool, String> {
         let mut exists = false;
         for path in self.paths(path) {
+            if !SignalFile::may_lie_beside(&path) {
+                return Err(strings::not_replaced(&path.with_extension("json").display().to_string()));
+            }
             if path.symlink_metadata().is_err() {
                 continue;
             }

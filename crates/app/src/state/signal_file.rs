@@ -183,7 +183,7 @@ impl SignalFile {
     }
 
     /// Whether the path of the sidecar for a signal at `path` is free or has another sidecar.
-    fn may_lie_beside(path: &Path) -> bool {
+    pub(crate) fn may_lie_beside(path: &Path) -> bool {
         match bounded_file::read(&sidecar_path(path), FileKind::Small) {
             Ok(beside) => is_sidecar(&beside),
             Err(error) => error.kind() == ErrorKind::NotFound,

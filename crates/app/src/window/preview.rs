@@ -35,7 +35,7 @@ impl Preview {
 
 impl Window {
     /// Starts and stops the stroke of the preview. `commands` are those of this frame.
-    pub(super) fn follow_preview(&mut self, commands: &[Command], ctx: &Context) {
+    pub(super) fn follow_preview(&mut self, commands: &mut Vec<Command>, ctx: &Context) {
         let is_author = self.pages.workspace == Workspace::Author && !self.sheet.is_open();
         let is_held = ctx.input(|i| i.pointer.primary_down());
         let is_moved = |command: &Command| matches!(command, Command::Edit(Edit::MovePoint(_)));
@@ -51,8 +51,10 @@ impl Window {
             ctx.request_repaint_after(REST);
         }
         let is_wanted = self.preview.is_dragging || self.preview.auditioned().is_some();
-        if commands.iter().any(|command| matches!(command, Command::ToggleHand)) {
-            // The user takes the stroke over.
+        let toggles = |command: &Command| matches!(command, Command::ToggleHand);
+        if self.preview.is_stroking && commands.iter().any(toggles) {
+            // The user takes the stroke over, which is running already.
+            commands.retain(|command| !toggles(command));
             self.preview.is_stroking = false;
         } else if is_wanted && !self.session.hand_is_running() && !self.preview.is_stroking {
             self.session.set_hand(Some(self.pages.stage.pad.input()));

@@ -94,10 +94,19 @@ impl TextureModel {
     /// See [`TextureModelError`].
     pub fn new(rate: Hertz, nodes: Vec<GrainNode>, friction: Option<f64>) -> Result<Self, TextureModelError> {
         let made = Self::blended(rate, nodes, friction)?;
-        if let Grain::Measured { nodes, .. } = &made.grain {
-            check::stable(nodes)?;
-        }
+        made.check_stable()?;
         Ok(made)
+    }
+
+    /// Checks that the filters of measured nodes do not grow in the renderer, as [`TextureModel::new`] does.
+    ///
+    /// # Errors
+    /// [`TextureModelError::Unstable`].
+    pub fn check_stable(&self) -> Result<(), TextureModelError> {
+        match &self.grain {
+            Grain::Measured { nodes, .. } => check::stable(nodes),
+            Grain::Published { .. } => Ok(()),
+        }
     }
 
     /// As [`TextureModel::new`], for a blend of textures, which is made at each movement of a point. Its filters are not

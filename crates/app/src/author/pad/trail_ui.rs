@@ -48,6 +48,7 @@ impl LiveTrail {
             let (Some((_, from)), Some((secs, to))) = (in_order(i - 1), in_order(i)) else { continue };
             let left = 1.0 - ((now_secs - secs) / FADE_SECS) as f32;
             if left > 0.0 {
+                ui.ctx().request_repaint();
                 let stroke = Stroke::new(1.0 + 4.0 * left, t.accent.gamma_multiply(0.55 * left));
                 painter.line_segment([in_ui(area, from[0], from[1]), in_ui(area, to[0], to[1])], stroke);
             }

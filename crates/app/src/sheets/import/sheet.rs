@@ -92,7 +92,10 @@ impl ImportSheet {
         });
         let mut commands = shown.inner;
         if !self.photos.is_empty() {
-            commands.push(Command::CloseSheet);
+            // Recordings that are being read stay; the photos find their places behind the sheet.
+            if self.batch.files().is_empty() {
+                commands.push(Command::CloseSheet);
+            }
             commands.push(Command::Prompt(PromptCommand::Look(std::mem::take(&mut self.photos))));
         }
         if !shown.any_popup_open && is_left(ctx) {

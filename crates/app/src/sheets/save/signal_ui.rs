@@ -2,6 +2,7 @@
 
 use egui::{Checkbox, ComboBox, DragValue, Ui};
 use shagreen_formats::wav_encoding::{Level, SampleType};
+use shagreen_studio::render::SEAM_SECS;
 
 use crate::look::theme::GAP;
 use crate::state::signal_export::SignalExport;
@@ -32,7 +33,13 @@ pub(super) fn options_ui(ui: &mut Ui, export: &mut SignalExport) -> bool {
         }
         let has_length = !is_of_bench && !options.follows_stroke;
         ui.label(strings::LENGTH);
-        let length = DragValue::new(&mut options.seconds).range(SECS).speed(0.1).suffix(" s").max_decimals(2);
+        // A loop is rendered a seam longer.
+        let longest = SECS.end() - if options.loops { SEAM_SECS } else { 0.0 };
+        let length = DragValue::new(&mut options.seconds)
+            .range(*SECS.start()..=longest)
+            .speed(0.1)
+            .suffix(" s")
+            .max_decimals(2);
         ui.add_enabled(has_length, length).accessible_name(strings::LENGTH);
         let loops = Checkbox::new(&mut options.loops, strings::LOOP);
         ui.add_enabled(has_length, loops).on_hover_text(strings::LOOP_HELP);

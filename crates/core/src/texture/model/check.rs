@@ -12,7 +12,7 @@ use crate::texture::{
 };
 use crate::units::Hertz;
 
-/// Checks that apply to measured and published textures.
+/// Checks the sample rate, the number of nodes and the friction of a measured or published texture.
 pub(super) fn frame(rate: Hertz, n_nodes: usize, friction: Option<f64>) -> Result<(), TextureModelError> {
     if !RATES_HZ.contains(&rate.0) {
         return Err(TextureModelError::Rate { rate_hz: rate.0 });
@@ -52,7 +52,7 @@ pub(super) fn measured(nodes: &[GrainNode]) -> Result<(), TextureModelError> {
     apart_in_plane(&places, highest)
 }
 
-/// Checks that the filters of measured nodes do not grow in the renderer.
+/// Checks that the filters of measured nodes are stable in the renderer.
 pub(super) fn stable(nodes: &[GrainNode]) -> Result<(), TextureModelError> {
     match nodes.iter().position(|node| !decays(&node.lsf)) {
         Some(index) => Err(TextureModelError::Unstable { index }),
