@@ -114,3 +114,28 @@ fn two_names_of_one_file_are_not_two_files() {
     check(&bench, "space panel --library simulated --sorting x.csv --ratings ./x.csv", 1, &["same file"]);
     assert_eq!(bench.files(), Vec::<String>::new());
 }
+
+#[test]
+fn a_line_of_millions_of_cells_is_no_table() {
+    let bench = Bench::new();
+    bench.write("line.csv", "1,".repeat(10 << 20));
+    check(&bench, "import recording line.csv --out b.json", 1, &["nothing was imported"]);
+    let said = bench.run("import recording line.csv --out b.json");
+    assert!(said.stderr.contains("line 1 is longer than"), "{}", said.stderr);
+}
+
+#[test]
+fn a_library_outside_the_folder_of_its_project_is_named() {
+    let bench = Bench::new();
+    bench.write("elsewhere/mine.json", starter_bytes());
+    bench.write("near/mine.json", starter_bytes());
+    let project = |library: &str| {
+        json!({"format": "shagreen-project", "version": "1.0", "units": {"length": "mm", "time": "s"},
+            "library": {"file": library}, "authored": []})
+        .to_string()
+    };
+    bench.write("near/far.shagreen", project("../elsewhere/mine.json"));
+    bench.write("near/near.shagreen", project("mine.json"));
+    assert!(bench.run("project show near/far.shagreen").stderr.contains("outside the folder of the project"));
+    assert!(!bench.run("project show near/near.shagreen").stderr.contains("outside"));
+}

@@ -56,8 +56,8 @@ pub(crate) fn text(bytes: &[u8]) -> Result<Cow<'_, str>, TableTextError> {
     if let Some(at) = text.find('\0') {
         return Err(TableTextError::Zero { line: line_at(&text.as_bytes()[..at]) });
     }
-    match text.split(['\n', '\r']).position(|line| line.len() > MAX_LINE_BYTES) {
-        Some(index) => Err(TableTextError::LongLine { line: index as u64 + 1 }),
+    match long_line(&text) {
+        Some(line) => Err(TableTextError::LongLine { line }),
         None => Ok(text),
     }
 }
@@ -71,6 +71,11 @@ pub(crate) fn text_with_odd_letters(bytes: &[u8]) -> Cow<'_, str> {
         }
         None => String::from_utf8_lossy(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)),
     }
+}
+
+/// Number, from one, of the first line that is too long for a table.
+pub(crate) fn long_line(text: &str) -> Option<u64> {
+    text.split(['\n', '\r']).position(|line| line.len() > MAX_LINE_BYTES).map(|index| index as u64 + 1)
 }
 
 /// The UTF-16 code units after a byte order mark; `None` without one.

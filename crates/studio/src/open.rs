@@ -7,7 +7,9 @@ use anyhow::{Context as _, anyhow};
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::{LibraryError, read_library};
-use shagreen_formats::project::{LibraryFile, Project, ProjectError, read_project, sha256_hex};
+use shagreen_formats::project::{
+    LibraryFile, Project, ProjectError, ProjectLibrary, read_project, sha256_hex,
+};
 
 use crate::file::{folder_of, in_file, is_special};
 
@@ -22,6 +24,19 @@ pub const OTHER_ENDINGS: [&str; 9] = ["wav", "csv", "tsv", "txt", "xml", "svc", 
 pub fn is_other_kind(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     ending.is_some_and(|ending| OTHER_ENDINGS.contains(&ending.as_str())) && !begins_like_json(path)
+}
+
+/// Warning that a project takes its library from outside its own folder: who sent the project did not send that file.
+fn outside_library(project: &Project, path: &Path) -> Option<String> {
+    let ProjectLibrary::File(file) = &project.library else { return None };
+    let folder = folder_of(path);
+    let is_inside = file.path.canonicalize().ok()?.starts_with(folder.canonicalize().unwrap_or(folder));
+    (!is_inside).then(|| {
+        format!(
+            "its library is outside the folder of the project; make sure that you want to use it: {}",
+            file.path.display()
+        )
+    })
 }
 
 fn begins_like_json(path: &Path) -> bool {
@@ -64,7 +79,8 @@ pub fn open(path: &Path) -> anyhow::Result<Opened> {
     let as_project =
         read_project(&bytes, &folder_of(path), &|library| bounded_file::read(library, FileKind::Document));
     match as_project {
-        Ok(Imported { value: project, warnings }) => {
+        Ok(Imported { value: project, mut warnings }) => {
+            warnings.extend(outside_library(&project, path));
             Ok(Opened::Project(Box::new(OpenedProject { project, warnings, sha256: sha256_hex(&bytes) })))
         }
         Err(ProjectError::Format { .. }) => match read_library(&bytes) {

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::csv_text::{self, stated_delimiter, text_with_odd_letters};
+use crate::csv_text::{self, TableTextError, long_line, stated_delimiter, text_with_odd_letters};
 use crate::recording::RecordingFileError;
 use crate::recording::column_map::{ColumnMap, Separator};
 
@@ -45,6 +45,11 @@ fn text_of(bytes: &[u8]) -> Result<Cow<'_, str>, RecordingFileError> {
     let text = text_with_odd_letters(bytes);
     if text.contains('\0') {
         let problem = "the file is neither a WAV file nor text".to_owned();
+        return Err(RecordingFileError::Table { problem, line: None });
+    }
+    // Before any cell is parsed: a line of a hundred million cells would take gigabytes.
+    if let Some(line) = long_line(&text) {
+        let problem = TableTextError::LongLine { line }.to_string();
         return Err(RecordingFileError::Table { problem, line: None });
     }
     Ok(text)
