@@ -6,6 +6,7 @@ use anyhow::bail;
 use shagreen_core::units::Contact;
 use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::wav::TraceV1;
+use shagreen_studio::trace::{steady_trace, stroke_trace};
 
 use crate::cli::output;
 use crate::cli::quantity::{force, quantity, speed};
@@ -76,11 +77,6 @@ pub(crate) fn motion(args: &MotionArgs, default: Option<(f64, f64, f64)>) -> any
     Ok(Motion::Steady { contact: Contact::from_mm_per_s_and_n(speed, force), seconds })
 }
 
-/// Largest number of points of a trace in a sidecar.
-const MAX_TRACE_POINTS: f64 = 20_000.0;
-/// Usual interval between the points of a trace, in seconds.
-const TRACE_STEP_SECS: f64 = 0.01;
-
 impl Motion {
     /// Returns the duration in seconds.
     pub(crate) fn seconds(&self) -> f64 {
@@ -118,24 +114,11 @@ impl Motion {
 
     /// Returns speed and force over time, for a sidecar.
     pub(crate) fn trace(&self) -> TraceV1 {
-        let seconds = self.seconds();
-        let times: Vec<f64> = match self {
-            Self::Steady { .. } => vec![0.0, seconds],
-            Self::Stroke { .. } => {
-                let step_secs = TRACE_STEP_SECS.max(seconds / MAX_TRACE_POINTS);
-                (0..=(seconds / step_secs) as usize).map(|i| i as f64 * step_secs).collect()
+        match self {
+            Self::Steady { contact, seconds } => steady_trace(*contact, *seconds),
+            Self::Stroke { contacts, .. } => {
+                stroke_trace(contacts.duration_secs(), |secs| contacts.contact_at(secs))
             }
-        };
-        let contacts: Vec<Contact> = times.iter().map(|t| self.contact_at(*t)).collect();
-        TraceV1 {
-            time_s: times.into_iter().map(short).collect(),
-            speed_mm_per_s: contacts.iter().map(|c| short(c.speed.mm_per_s())).collect(),
-            force_n: contacts.iter().map(|c| short(c.force.0)).collect(),
         }
     }
-}
-
-/// Rounds to four decimals: 0.1 ms, 0.1 µm/s, 0.1 mN.
-fn short(value: f64) -> f64 {
-    (value * 1e4).round() / 1e4
 }

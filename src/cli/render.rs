@@ -12,7 +12,7 @@ use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::library::Library;
 use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav_as};
 use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
-use shagreen_studio::render::{SEAM_SECS, SampleFormat, looped, n_for_loop, render_along, render_mixture};
+use shagreen_studio::render::{SEAM_SECS, SampleFormat, render_along, render_mixture};
 use shagreen_studio::report::Reporter as _;
 
 use crate::cli::motion::{Motion, MotionArgs, motion};
@@ -176,21 +176,22 @@ fn samples(
 ) -> anyhow::Result<Vec<f32>> {
     let mut hand =
         Watched { motion, progress: Progress::new("ms rendered", output::in_ms(motion.seconds())) };
-    let rate = Hertz(f64::from(rate_hz));
-    let n = (motion.seconds() * rate.0).round() as usize;
     if args.loops && motion.seconds() > MAX_TRACK_SECS - SEAM_SECS {
         bail!("a loop lasts at most {} s; choose a shorter duration", MAX_TRACK_SECS - SEAM_SECS);
     }
-    let seconds = if args.loops { n_for_loop(n, rate) as f64 / rate.0 } else { motion.seconds() };
-    let format = SampleFormat { rate, seconds, seed: args.seed };
-    let samples = if let Some(path) = &chosen.path {
-        render_along(path, format, &mut hand).context("the path cannot be rendered with these options")?
-    } else {
-        let voices = chosen.planes(library, &Printed)?;
-        render_mixture(&voices, chosen.mixing, format, &mut hand)
-            .context("the texture cannot be rendered with these options")?
+    let format = SampleFormat {
+        rate: Hertz(f64::from(rate_hz)),
+        seconds: motion.seconds(),
+        seed: args.seed,
+        loops: args.loops,
     };
-    Ok(if args.loops { looped(samples, n, rate) } else { samples })
+    if let Some(path) = &chosen.path {
+        return render_along(path, format, &mut hand)
+            .context("the path cannot be rendered with these options");
+    }
+    let voices = chosen.planes(library, &Printed)?;
+    render_mixture(&voices, chosen.mixing, format, &mut hand)
+        .context("the texture cannot be rendered with these options")
 }
 
 fn sidecar(args: &Args, library: &Library, chosen: &Sound, motion: &Motion, rate_hz: u32) -> SidecarV1 {

@@ -14,7 +14,7 @@ use crate::strings::browse as strings;
 const TOO_SOON: Duration = Duration::from_millis(400);
 
 /// What the dialog asks for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Asked<'a> {
     pub(crate) title: &'a str,
     /// Name of the kind of file, and the endings of its names.
@@ -27,6 +27,9 @@ pub(crate) struct Asked<'a> {
     /// Whether several files may be chosen.
     pub(crate) several: bool,
 }
+
+/// Width that the button needs beside a path field, in points.
+pub(crate) const BROWSE_WIDTH: f32 = 92.0;
 
 /// State of the button.
 #[derive(Default)]

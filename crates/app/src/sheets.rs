@@ -16,6 +16,7 @@ use std::path::Path;
 
 use egui::{Align2, Context, DroppedFileHandle, FontId, Id, LayerId, Order, Popup, Stroke, StrokeKind};
 use shagreen_formats::project::EXTENSION;
+use shagreen_studio::file::ending_of;
 use shagreen_studio::open::is_other_kind;
 
 use crate::author::texture_sheet::TextureSheet;
@@ -210,8 +211,7 @@ pub(crate) fn command_for(path: &Path) -> Option<Command> {
 
 /// Whether a file is a photo, from the ending of its name.
 pub(crate) fn is_photo(path: &Path) -> bool {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    ending.is_some_and(|ending| ["jpg", "jpeg", "png"].contains(&ending.as_str()))
+    ["jpg", "jpeg", "png"].contains(&ending_of(path).as_str())
 }
 
 /// Draws over the whole window which files may be dropped.

@@ -326,7 +326,7 @@ impl Window {
         self.session.set_hidden(self.compare.is_hidden());
         let is_bench = self.pages.workspace == Workspace::Signals;
         self.session.feel(self.pages.signals.felt_signal().filter(|_| is_bench));
-        let project = self.previewed_project().into_owned();
+        let project = self.preview.applied_to(&self.project, self.session.textures());
         self.session.follow(&project, heard.as_deref(), ctx);
     }
 
@@ -342,8 +342,7 @@ impl Window {
     }
 
     /// Requests continuous frames while something is playing. Otherwise only the status bar and the notice of a long
-    /// computation can change by themselves: input,
-    /// the pen and background jobs request their own frames.
+    /// computation can change by themselves: input, the pen and background jobs request their own frames.
     fn keep_going(&self, ctx: &egui::Context) {
         let sounding = self.session.touch().contact.force_n > 0.0 || self.session.scope().rms(0.5) > 1e-4;
         if self.session.hand_is_running() || sounding {

@@ -61,6 +61,11 @@ pub fn read_file(path: &Path, kind: FileKind) -> anyhow::Result<Vec<u8>> {
         .with_context(|| in_file(path))
 }
 
+/// Returns the ending of a file's name in lower case; empty if there is none.
+pub fn ending_of(path: &Path) -> String {
+    path.extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase())
+}
+
 /// Returns whether a folder, pipe or device is at this path. Reading a pipe or device might never end.
 pub fn is_special(path: &Path) -> bool {
     path.metadata().is_ok_and(|metadata| !metadata.is_file())

@@ -35,3 +35,4 @@ pub mod short_text;
 pub mod sound;
 pub mod space;
 pub mod tap_transients;
+pub mod trace;

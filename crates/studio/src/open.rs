@@ -11,7 +11,7 @@ use shagreen_formats::project::{
     LibraryFile, Project, ProjectError, ProjectLibrary, read_project, sha256_hex,
 };
 
-use crate::file::{folder_of, in_file, is_special};
+use crate::file::{ending_of, folder_of, in_file, is_special};
 
 /// Bytes at the beginning of a file that tell its kind.
 const HEAD_BYTES: u64 = 256;
@@ -22,8 +22,7 @@ pub const OTHER_ENDINGS: [&str; 9] = ["wav", "csv", "tsv", "txt", "xml", "svc", 
 /// Returns whether a file is of such a kind: its name has one of [`OTHER_ENDINGS`], and it does not begin like a project
 /// or a library, which may have any name.
 pub fn is_other_kind(path: &Path) -> bool {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    ending.is_some_and(|ending| OTHER_ENDINGS.contains(&ending.as_str())) && !begins_like_json(path)
+    OTHER_ENDINGS.contains(&ending_of(path).as_str()) && !begins_like_json(path)
 }
 
 /// Warning that a project takes its library from outside its own folder: who sent the project did not send that file.

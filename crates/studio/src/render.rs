@@ -17,13 +17,28 @@ pub struct SampleFormat {
     pub seconds: f64,
     /// Random seed of the noise.
     pub seed: u64,
+    /// Whether the end goes on into the beginning, so that the samples can be repeated.
+    pub loops: bool,
 }
 
 /// Duration of the crossfade at the seam of a loop, in seconds.
 pub const SEAM_SECS: f64 = 0.1;
 
+/// Renders in a format: a loop is rendered a seam longer, and then closed. `render` takes the seconds to render.
+fn rendered(
+    format: SampleFormat,
+    render: impl FnOnce(f64) -> Result<Vec<f32>, RenderError>,
+) -> Result<Vec<f32>, RenderError> {
+    let SampleFormat { rate, seconds, .. } = format;
+    if !format.loops {
+        return render(seconds);
+    }
+    let n = (seconds * rate.0).round() as usize;
+    Ok(looped(render(n_for_loop(n, rate) as f64 / rate.0)?, n, rate))
+}
+
 /// Number of samples to render for a loop of `n` samples: the seam is rendered twice.
-pub fn n_for_loop(n: usize, rate: Hertz) -> usize {
+fn n_for_loop(n: usize, rate: Hertz) -> usize {
     n + seam(n, rate)
 }
 
@@ -34,7 +49,7 @@ fn seam(n: usize, rate: Hertz) -> usize {
 /// Makes a loop of `n` samples from [`n_for_loop`] samples: what follows the end is mixed into the beginning, so that the
 /// signal goes on over the seam. The two parts are independent noise, so their powers add: the weights are a cosine and a
 /// sine, divided by the root of the power of their sum where the parts are alike.
-pub fn looped(mut samples: Vec<f32>, n: usize, rate: Hertz) -> Vec<f32> {
+fn looped(mut samples: Vec<f32>, n: usize, rate: Hertz) -> Vec<f32> {
     let n_seam = seam(n, rate).min(samples.len().saturating_sub(n));
     let (begin, end) = (&samples[..n_seam], &samples[n..n + n_seam]);
     let dot = |a: &[f32], b: &[f32]| a.iter().zip(b).map(|(a, b)| f64::from(*a) * f64::from(*b)).sum::<f64>();
@@ -62,11 +77,11 @@ pub fn render_mixture<P: Borrow<Plane>>(
     format: SampleFormat,
     hand: &mut dyn Hand,
 ) -> Result<Vec<f32>, RenderError> {
-    let SampleFormat { rate, seconds, seed } = format;
+    let SampleFormat { rate, seed, .. } = format;
     let prepared: Vec<(Prepared, f64)> =
         voices.iter().map(|(plane, weight)| (plane.borrow().prepare(), *weight)).collect();
     let parents: Vec<(&Prepared, f64)> = prepared.iter().map(|(p, weight)| (p, *weight)).collect();
-    render(&RenderPlan { parents: &parents, mode, rate, seconds, seed }, hand)
+    rendered(format, |seconds| render(&RenderPlan { parents: &parents, mode, rate, seconds, seed }, hand))
 }
 
 /// Renders the acceleration in m/s² of a texture that changes along the stroke.
@@ -78,9 +93,11 @@ pub fn render_along(
     format: SampleFormat,
     hand: &mut dyn Hand,
 ) -> Result<Vec<f32>, RenderError> {
-    let SampleFormat { rate, seconds, seed } = format;
+    let SampleFormat { rate, seed, .. } = format;
     let prepared: Vec<Prepared> = path.keys().iter().map(|key| Plane::new(&key.model).prepare()).collect();
-    render_path(&PathPlan { path, prepared: &prepared, rate, seconds, seed }, hand)
+    rendered(format, |seconds| {
+        render_path(&PathPlan { path, prepared: &prepared, rate, seconds, seed }, hand)
+    })
 }
 
 #[cfg(test)]

@@ -37,7 +37,8 @@ use crate::strings::{self};
 
 /// Radius of a texture's picture on the canvas, in points.
 const SITE_RADIUS: f32 = 13.0;
-/// Radius of such a picture as a share of the height of the canvas, up to a limit in points: on a large screen it is larger.
+/// Radius of such a picture as a share of the height of the canvas, up to a limit in points: it is larger on a large
+/// screen.
 const SITE_SHARE: f32 = 0.03;
 const MAX_SITE_RADIUS: f32 = 28.0;
 /// Size of the authored point while it is not pointed at, in points.

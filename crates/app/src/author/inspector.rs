@@ -15,8 +15,7 @@ use crate::panel::Panel;
 use crate::state::edit::Edit;
 use crate::strings;
 
-/// Height of the heading of the contributions, in points. Below it, three cards just fit into the smallest usual
-/// window.
+/// Height of the bar of all contributing textures, in points.
 const SHARES_HEIGHT: f32 = 6.0;
 /// Height of the heading of the contributions, in points.
 const HEADING_HEIGHT: f32 = 18.0;

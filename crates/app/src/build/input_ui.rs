@@ -120,14 +120,8 @@ fn table_ui(ui: &mut Ui, kind: JudgmentKind, path: &mut PathField, said: &Said) 
             let button = Button::new(crate::strings::import::READ).min_size(egui::vec2(button_width, 0.0));
             asked.read = ui.add(button).accessible_name(strings::read(title)).clicked() || is_entered;
         } else {
-            let dialog = Dialog {
-                title,
-                kind: strings::TABLES,
-                endings: &["csv", "tsv", "txt"],
-                folder: None,
-                name: None,
-                several: false,
-            };
+            let dialog =
+                Dialog { title, kind: strings::TABLES, endings: &["csv", "tsv", "txt"], ..Dialog::default() };
             if let Some(chosen) = path.browse.show(ui, title, &dialog).into_iter().next() {
                 path.text = chosen.display().to_string();
                 asked.read = true;

@@ -40,17 +40,25 @@ pub(super) struct Audible {
     pub(super) made: Option<Made>,
 }
 
+/// Speeds and forces of a voice: those of a texture of the library, or of the interpolated model.
+pub(super) fn plane_of(voice: Voice<'_>, planes: &[Arc<Plane>]) -> Arc<Plane> {
+    match voice {
+        Voice::Texture(texture) => Arc::clone(&planes[texture]),
+        Voice::Made(model) => Arc::new(Plane::new(model)),
+    }
+}
+
 impl Audible {
     /// Audible textures of `authored`. An interpolated texture is identified by `number`.
     pub(super) fn new(authored: &Authored, planes: &[Arc<Plane>], number: u64) -> Self {
         let mut heard = Self { mixing: authored.mixing(), ..Self::default() };
         for (voice, share) in authored.voices() {
-            let (source, plane) = match voice {
-                Voice::Texture(texture) => (Source::Library(texture), Arc::clone(&planes[texture])),
-                Voice::Made(model) => {
-                    let plane = Plane::new(model);
+            let plane = plane_of(voice, planes);
+            let source = match voice {
+                Voice::Texture(texture) => Source::Library(texture),
+                Voice::Made(_) => {
                     heard.made = Some(Made { number, prepared: plane.prepare() });
-                    (Source::Made, Arc::new(plane))
+                    Source::Made
                 }
             };
             heard.voices.push(AudibleVoice { source, plane, share });

@@ -4,19 +4,19 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use shagreen_core::space::LabelSource;
-use shagreen_core::space::authoring::{Authored, Voice};
+use shagreen_core::space::authoring::Authored;
 use shagreen_core::space::texture_path::TexturePath;
-use shagreen_core::texture::plane::Plane;
-use shagreen_core::texture::tap::Tap;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Provenance, TextureEntry};
 use shagreen_formats::project::{AuthoredTexture, Project};
 use shagreen_formats::wav::{ParentV1, SidecarV1};
 
 use super::Session;
+use crate::session::audible::plane_of;
 use crate::session::kept_path::drawn_path;
 use crate::state::bench_signal::BenchSignal;
 use crate::state::document::CREATED_BY;
+use crate::state::recorded_stroke::RecordedStroke;
 use crate::state::signal_file::{SIGNAL_RATE_HZ, SIGNAL_SECS, SIGNAL_SEED, SignalFile, Sounding};
 use crate::strings::signal as strings;
 
@@ -57,8 +57,8 @@ impl Session {
             (Sounding::Mix(voices.collect(), self.sound.heard.mixing), authored.parents.clone())
         };
         let texture = alone.map(|texture| self.textures.library.textures[texture].id.clone());
-        let file = SignalFile { tap: self.tap_of(authored), ..self.signal_of(sounding, &parents, contact) };
-        let sidecar = SidecarV1 { texture, blend: authored.mode.id().to_owned(), ..file.sidecar };
+        let file = self.signal_of(authored, sounding, &parents, contact);
+        let sidecar = SidecarV1 { texture, ..file.sidecar };
         Ok(SignalFile { sidecar: placed(sidecar, place), ..file })
     }
 
@@ -79,31 +79,28 @@ impl Session {
         }
         let of = |texture: &Arc<AuthoredTexture>| {
             let authored = self.authoring().author(texture.at, &self.blending(&texture.blend))?;
-            let plane_of = |(voice, share): (Voice<'_>, f64)| match voice {
-                Voice::Texture(texture) => (Arc::clone(&self.textures.planes[texture]), share),
-                Voice::Made(model) => (Arc::new(Plane::new(model)), share),
-            };
-            let voices = authored.voices().into_iter().map(plane_of).collect();
-            let sounding = Sounding::Mix(voices, authored.mixing());
-            let file = SignalFile {
-                tap: self.tap_of(&authored),
-                ..self.signal_of(sounding, &authored.parents, contact)
-            };
-            let sidecar = SidecarV1 { blend: authored.mode.id().to_owned(), ..file.sidecar };
-            Some((texture.name.clone(), SignalFile { sidecar: placed(sidecar, Some(&authored)), ..file }))
+            let voices = authored.voices().into_iter();
+            let voices = voices.map(|(voice, share)| (plane_of(voice, &self.textures.planes), share));
+            let sounding = Sounding::Mix(voices.collect(), authored.mixing());
+            let file = self.signal_of(&authored, sounding, &authored.parents, contact);
+            let sidecar = placed(file.sidecar, Some(&authored));
+            Some((texture.name.clone(), SignalFile { sidecar, ..file }))
         };
         Ok(project.authored.iter().filter_map(of).collect())
     }
 
-    fn tap_of(&self, authored: &Authored) -> Option<Tap> {
-        authored.tap(|texture| self.textures.library.textures[texture].model.tap())
-    }
-
-    /// A signal of these textures, which are named in its sidecar.
-    fn signal_of(&self, sounding: Sounding, parents: &[(usize, f64)], contact: Contact) -> SignalFile {
+    /// A signal of an authored texture, whose contributing textures are named in its sidecar.
+    fn signal_of(
+        &self,
+        authored: &Authored,
+        sounding: Sounding,
+        parents: &[(usize, f64)],
+        contact: Contact,
+    ) -> SignalFile {
         let library = &self.textures.library;
         let named = |(texture, weight): &(usize, f64)| ParentV1::new(library, *texture, *weight);
         let sidecar = SidecarV1 {
+            blend: authored.mode.id().to_owned(),
             library: library.name.clone(),
             label_source: self.common_source().map(|source| LabelSource::id(source).to_owned()),
             parents: parents.iter().map(named).collect(),
@@ -114,8 +111,8 @@ impl Session {
         SignalFile {
             sounding,
             contact,
-            stroke: self.stroke().map(|stroke| Arc::new(stroke.track().clone())),
-            tap: None,
+            stroke: self.stroke().map(RecordedStroke::shared_track),
+            tap: authored.tap(|texture| library.textures[texture].model.tap()),
             model_rate: Hertz(self.sound.rate_hz),
             sidecar,
             restricted: restricted.map(|entry| entry.name.clone()).collect(),

@@ -7,7 +7,7 @@ use std::sync::mpsc::Receiver;
 use egui::{Button, Context, Key, Label, RichText, ScrollArea, TextEdit, Ui};
 use shagreen_formats::project::EXTENSION;
 
-use crate::browse::{Asked, Browse};
+use crate::browse::{Asked, BROWSE_WIDTH, Browse};
 use crate::choices::signals::Slot;
 use crate::command::signals::SignalsCommand;
 use crate::command::stroke::StrokeCommand;
@@ -20,8 +20,6 @@ use crate::state::recorded_stroke::TABLE_ENDINGS;
 use crate::state::source::Source;
 use crate::strings::{document as strings, signals, stroke};
 
-/// Width that the button for the dialog of the system needs, in points.
-const BROWSE_WIDTH: f32 = 92.0;
 /// Height of the list, in points.
 const LIST_HEIGHT: f32 = 260.0;
 
@@ -62,7 +60,7 @@ impl Wanted {
             Self::Strokes => (stroke::OPEN_TITLE, stroke::OPEN_KIND),
             Self::Signal(_) => (signals::OPEN_TITLE, signals::OPEN_KIND),
         };
-        Asked { title, kind, endings: self.endings(), folder: Some(folder), name: None, several: false }
+        Asked { title, kind, endings: self.endings(), folder: Some(folder), ..Asked::default() }
     }
 }
 

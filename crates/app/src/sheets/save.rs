@@ -13,7 +13,7 @@ use shagreen_core::units::Contact;
 use shagreen_formats::library::{Library, Provenance};
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary};
 
-use crate::browse::{Asked, Browse};
+use crate::browse::{Asked, BROWSE_WIDTH, Browse};
 use crate::command::{Command, FileCommand};
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, Tokens, tokens};
@@ -28,9 +28,6 @@ use crate::state::signal_export::SignalExport;
 use crate::state::signal_file::Sounding;
 use crate::state::stroke_file::StrokeFile;
 use crate::state::texture_file::TextureFile;
-
-/// Width that the button for the dialog of the system needs, in points.
-const BROWSE_WIDTH: f32 = 92.0;
 
 /// State of the open sheet.
 pub struct SaveSheet {
@@ -222,7 +219,7 @@ impl SaveSheet {
                 endings: &[self.subject.ending()],
                 folder: present.parent(),
                 name: Some(&name),
-                several: false,
+                ..Asked::default()
             };
             let chosen = ui.add_enabled_ui(!is_saving, |ui| self.browse.show(ui, field_name, &asked)).inner;
             if let Some(chosen) = chosen.into_iter().next().filter(|_| !is_saving) {

@@ -236,7 +236,7 @@ impl SignalsPage {
 
     /// Whether B was edited by hand, which no project keeps.
     pub(crate) fn has_unsaved_painting(&self) -> bool {
-        self.editor.labels()[0].is_some()
+        self.painting_labels()[0].is_some()
     }
 
     /// Undoes the last change of B.

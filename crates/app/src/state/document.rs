@@ -246,29 +246,22 @@ fn conflict(path: &Path, base: Option<&Project>, here: &Project, present: &[u8])
 mod faults;
 
 #[cfg(test)]
+#[path = "document/tests/support.rs"]
+mod support;
+
+#[cfg(test)]
 #[path = "document/tests/two_windows.rs"]
 mod two_windows;
 
 #[cfg(test)]
 mod tests {
+    use super::support::wait;
     use super::{Came, Document, DocumentFile};
     use crate::choices::conflict::Change;
     use crate::state::edit::{Edit, edited};
     use shagreen_formats::built_in::BuiltIn;
     use shagreen_formats::project::{Project, ProjectLibrary};
     use shagreen_studio::open::Opened;
-    use std::time::Instant;
-
-    fn wait(document: &mut Document) -> Came {
-        let begun = Instant::now();
-        loop {
-            if let Some(came) = document.collect() {
-                return came;
-            }
-            assert!(begun.elapsed().as_secs() < 20, "nothing came");
-            std::thread::yield_now();
-        }
-    }
 
     #[test]
     fn a_project_is_saved_and_opened_again() {

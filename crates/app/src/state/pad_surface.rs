@@ -12,7 +12,7 @@ const SIZE: [usize; 2] = [768, 384];
 /// Resolution in pixels per millimeter, and the longest side of the sample in pixels.
 const PIXELS_PER_MM: f64 = 6.0;
 const LONGEST_SAMPLE: usize = 224;
-/// Directions of the light that are told apart.
+/// Number of directions of the light.
 pub(crate) const N_LIGHTS: u8 = 32;
 /// Light from the upper left, as in the thumbnails.
 pub(crate) const USUAL_LIGHT: u8 = 20;
@@ -31,9 +31,6 @@ pub(crate) struct PadSurface {
 impl PadSurface {
     /// Makes a surface like a picture of `width_mm`.
     pub(crate) fn new(picture: &Pixels, width_mm: f64) -> Self {
-        if picture.colors.is_empty() {
-            return Self { pixels: Pixels { width: 1, colors: vec![[128.0; 3]] }, size_mm: [1.0; 2] };
-        }
         let longest = picture.width.max(picture.height());
         let wanted = (PIXELS_PER_MM * width_mm * longest as f64 / picture.width as f64) as usize;
         let sample = reduced(picture, longest.div_ceil(wanted.clamp(32, LONGEST_SAMPLE)).max(1));
@@ -75,7 +72,7 @@ impl PadSurface {
 #[derive(Default)]
 pub(crate) struct LitSurface {
     shown: Option<Shown>,
-    job: LatestJob<Made>,
+    job: LatestJob<Option<Made>>,
 }
 
 struct Shown {
@@ -101,7 +98,8 @@ impl LitSurface {
         *self = Self::default();
     }
 
-    /// Makes the surface of a picture, which `picture` returns with its width in mm. The previous one stays meanwhile.
+    /// Makes the surface of a picture, which `picture` returns with its width in mm; without one, nothing new is shown. The
+    /// previous surface stays meanwhile.
     pub(crate) fn make(
         &mut self,
         ctx: &Context,
@@ -109,9 +107,9 @@ impl LitSurface {
     ) {
         let light = self.shown.as_ref().map_or(USUAL_LIGHT, |shown| shown.light);
         self.job.ask(ctx, move || {
-            let (pixels, width_mm) = picture().unwrap_or((PLAIN, 1.0));
+            let (pixels, width_mm) = picture()?;
             let surface = Arc::new(PadSurface::new(&pixels, width_mm));
-            Made { image: surface.lit(light), surface, light }
+            Some(Made { image: surface.lit(light), surface, light })
         });
     }
 
@@ -127,14 +125,14 @@ impl LitSurface {
         let shown = self.shown.as_ref()?;
         if shown.light != light && !self.job.is_busy() {
             let surface = Arc::clone(&shown.surface);
-            self.job.ask(ctx, move || Made { image: surface.lit(light), surface, light });
+            self.job.ask(ctx, move || Some(Made { image: surface.lit(light), surface, light }));
         }
         Some((shown.texture.id(), shown.surface.size_mm))
     }
 
     /// Takes in what the worker has made.
     pub(crate) fn collect(&mut self, ctx: &Context) {
-        if let Some(Ok(Made { surface, light, image })) = self.job.collect(ctx) {
+        if let Some(Ok(Some(Made { surface, light, image }))) = self.job.collect(ctx) {
             let texture = match self.shown.take() {
                 Some(Shown { mut texture, .. }) => {
                     texture.set(image, TextureOptions::LINEAR_REPEAT);
@@ -146,9 +144,6 @@ impl LitSurface {
         }
     }
 }
-
-/// What is shown for a picture that cannot be decoded; the reader of the file has said so.
-const PLAIN: Pixels = Pixels { width: 0, colors: Vec::new() };
 
 /// The picture with each side reduced by a whole factor, by means.
 fn reduced(picture: &Pixels, factor: usize) -> Pixels {

@@ -2,6 +2,7 @@
 
 use std::io::Read as _;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use anyhow::{Context as _, bail};
@@ -17,7 +18,7 @@ use shagreen_formats::stroke_csv::{is_stroke_table, read_stroke_csv, stroke_csv}
 use crate::state::background::in_background;
 use crate::state::source::Source;
 use crate::strings::stroke as strings;
-use shagreen_studio::file::is_special;
+use shagreen_studio::file::{ending_of, is_special};
 
 /// Maximum duration of a stroke that is read, in seconds.
 const LONGEST_SECS: f64 = 600.0;
@@ -36,7 +37,7 @@ const MEAN_STEP_SECS: f64 = 0.01;
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedStroke {
     samples: Vec<PenSample>,
-    track: Track,
+    track: Arc<Track>,
     usual: Contact,
 }
 
@@ -48,7 +49,7 @@ impl RecordedStroke {
     pub fn new(samples: Vec<PenSample>) -> Result<Self, TrackError> {
         let track = Track::new(&samples)?;
         let usual = usual_contact(&track);
-        Ok(Self { samples, track, usual })
+        Ok(Self { samples, track: Arc::new(track), usual })
     }
 
     /// Samples of the tip: time, position, force and contact.
@@ -59,6 +60,11 @@ impl RecordedStroke {
     /// Track that an output plays.
     pub fn track(&self) -> &Track {
         &self.track
+    }
+
+    /// The same track, for work in the background.
+    pub(crate) fn shared_track(&self) -> Arc<Track> {
+        Arc::clone(&self.track)
     }
 
     /// Mean tip speed and normal force during contact, scaled by the tempo and the force of `repeat`.
@@ -169,8 +175,7 @@ pub(crate) fn is_stroke_file(file: &DroppedFileHandle) -> bool {
 
 /// Whether the file at `path` is a stroke recording; `otherwise` answers for a file that is not there.
 pub(crate) fn is_stroke_path(path: &Path, otherwise: impl FnOnce() -> bool) -> bool {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    if !ending.is_some_and(|ending| TABLE_ENDINGS.contains(&ending.as_str())) {
+    if !TABLE_ENDINGS.contains(&ending_of(path).as_str()) {
         return false;
     }
     // The importer reports files that cannot be read.

@@ -14,9 +14,10 @@ use shagreen_device::track::Track;
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::wav::{SidecarV1, TraceV1, is_sidecar, sidecar_path, write_wav_as};
 use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
-use shagreen_studio::render::{SampleFormat, looped, n_for_loop, render_along, render_mixture};
+use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
 use shagreen_studio::replace::is_own_signal;
 use shagreen_studio::tap_transients::add_tap_transients;
+use shagreen_studio::trace::{steady_trace, stroke_trace};
 
 use crate::state::bench_signal::BenchSignal;
 use crate::strings::signal as strings;
@@ -25,9 +26,6 @@ use crate::strings::signal as strings;
 pub(crate) const SIGNAL_SECS: f64 = 5.0;
 /// Usual sample rate of the signal in Hz, which audio editors and game engines accept.
 pub(crate) const SIGNAL_RATE_HZ: u32 = 48_000;
-/// Most points of the trace in a sidecar, and their usual interval in seconds.
-const MAX_TRACE_POINTS: f64 = 20_000.0;
-const TRACE_STEP_SECS: f64 = 0.01;
 /// Seed of the noise.
 pub(crate) const SIGNAL_SEED: u64 = 1;
 
@@ -131,13 +129,10 @@ impl SignalFile {
     /// # Errors
     /// The signal cannot be rendered.
     pub(crate) fn samples(&self, options: &SignalOptions) -> Result<Vec<f32>, String> {
-        let rate = Hertz(f64::from(options.rate_hz));
         let stroke = self.stroke(options);
-        let seconds = self.seconds(options);
-        let n = (seconds * rate.0).round() as usize;
-        let loops = options.loops && stroke.is_none() && !self.is_of_bench();
-        let rendered_secs = if loops { n_for_loop(n, rate) as f64 / rate.0 } else { seconds };
-        let format = SampleFormat { rate, seconds: rendered_secs, seed: SIGNAL_SEED };
+        let rate = Hertz(f64::from(options.rate_hz));
+        let loops = options.loops && stroke.is_none();
+        let format = SampleFormat { rate, seconds: self.seconds(options), seed: SIGNAL_SEED, loops };
         let mut contact_at = |secs: f64| stroke.map_or(self.contact, |track| contact_of(track, secs));
         let rendered: Result<Vec<f32>, RenderError> = match &self.sounding {
             Sounding::Bench(signal) => Ok(signal.at(rate).into_iter().map(|x| x as f32).collect()),
@@ -155,25 +150,14 @@ impl SignalFile {
             );
             added.map_err(|error| format!("{error:#}"))?;
         }
-        Ok(if loops { looped(samples, n, rate) } else { samples })
+        Ok(samples)
     }
 
     /// Speed and force over time, for the sidecar.
     fn trace(&self, options: &SignalOptions) -> TraceV1 {
-        let seconds = self.seconds(options);
-        let times: Vec<f64> = match self.stroke(options) {
-            Some(_) => {
-                let n = (seconds / TRACE_STEP_SECS).ceil().clamp(1.0, MAX_TRACE_POINTS);
-                (0..=n as usize).map(|i| seconds * i as f64 / n).collect()
-            }
-            None => vec![0.0, seconds],
-        };
-        let at = |secs: &f64| self.stroke(options).map_or(self.contact, |track| contact_of(track, *secs));
-        let contacts: Vec<Contact> = times.iter().map(at).collect();
-        TraceV1 {
-            speed_mm_per_s: contacts.iter().map(|contact| as_set(contact.speed.mm_per_s())).collect(),
-            force_n: contacts.iter().map(|contact| as_set(contact.force.0)).collect(),
-            time_s: times,
+        match self.stroke(options) {
+            Some(track) => stroke_trace(track.duration_secs(), |secs| contact_of(track, secs)),
+            None => steady_trace(self.contact, self.seconds(options)),
         }
     }
 
@@ -198,10 +182,4 @@ fn contact_of(track: &Track, secs: f64) -> Contact {
         speed: MetersPerSecond(f64::from(contact.speed_mps)),
         force: Newtons(f64::from(contact.force_n)),
     }
-}
-
-/// Rounds a speed or force to thousandths, because the user sets it as `f32`.
-fn as_set(value: f64) -> f64 {
-    let thousandths = f64::from(value as f32) * 1e3;
-    thousandths.round() / 1e3
 }

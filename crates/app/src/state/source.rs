@@ -7,7 +7,7 @@ use egui::DroppedFileHandle;
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::wav::sidecar_names;
 
-use shagreen_studio::file::{is_special, shown_name};
+use shagreen_studio::file::{ending_of, is_special, shown_name};
 use shagreen_studio::import::is_importable;
 
 use crate::strings::import as strings;
@@ -55,7 +55,7 @@ impl Source {
 
     /// File ending in lower case.
     pub(crate) fn ending(&self) -> String {
-        self.path().extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase())
+        ending_of(self.path())
     }
 }
 

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
 use egui::Context;
+use shagreen_formats::library::TextureEntry;
 use shagreen_formats::project::Project;
 
 use super::Window;
@@ -20,7 +21,7 @@ const REST: Duration = Duration::from_millis(350);
 pub(super) struct Preview {
     /// Whether the point is being dragged.
     is_dragging: bool,
-    /// Texture under the pointer, and the time since which it is there.
+    /// Texture under the pointer, and when the pointer came to it.
     pointed: Option<(usize, Instant)>,
     /// Whether the automatic stroke was started by the preview, which will stop it.
     is_stroking: bool,
@@ -30,6 +31,14 @@ impl Preview {
     /// Texture that plays because the pointer rests on it.
     fn auditioned(&self) -> Option<usize> {
         self.pointed.filter(|(_, since)| since.elapsed() >= REST).map(|(texture, _)| texture)
+    }
+
+    /// The project as it plays: with the texture under the pointer alone, if it is previewed.
+    pub(super) fn applied_to<'a>(&self, project: &'a Project, textures: &[TextureEntry]) -> Cow<'a, Project> {
+        match self.auditioned().and_then(|texture| textures.get(texture)) {
+            Some(entry) => Cow::Owned(Project { solo: Some(entry.id.clone()), ..project.clone() }),
+            None => Cow::Borrowed(project),
+        }
     }
 }
 
@@ -61,15 +70,6 @@ impl Window {
             self.preview.is_stroking = true;
         } else if !is_wanted && std::mem::take(&mut self.preview.is_stroking) {
             self.session.set_hand(None);
-        }
-    }
-
-    /// The project, with the texture under the pointer alone.
-    pub(super) fn previewed_project(&self) -> Cow<'_, Project> {
-        let alone = self.preview.auditioned().and_then(|texture| self.session.textures().get(texture));
-        match alone {
-            Some(entry) => Cow::Owned(Project { solo: Some(entry.id.clone()), ..self.project.clone() }),
-            None => Cow::Borrowed(&self.project),
         }
     }
 }

@@ -20,7 +20,8 @@ use crate::strings::{self};
 /// Maximum number of textures shown as pictures; if there are more, each texture is a dot.
 const MAX_PICTURES: usize = 60;
 
-/// Draws the textures; a click chooses one. Returns the commands, and the texture under the pointer. Texture names avoid the axis labels in `words`.
+/// Draws the textures; a click chooses one. Returns the commands, and the texture under the pointer. Texture names avoid
+/// the axis labels in `words`.
 pub(super) fn sites_ui(
     ui: &mut Ui,
     axes: Axes,

@@ -110,9 +110,7 @@ impl DevicesSheet {
             title: strings::ACTUATOR,
             kind: strings::PROFILES,
             endings: &["toml"],
-            folder: None,
-            name: None,
-            several: false,
+            ..Asked::default()
         };
         let chosen = self.browse.show(ui, strings::PROFILE_PATH, &asked).into_iter().next();
         let is_chosen = chosen.is_some();

@@ -134,9 +134,8 @@ impl ImportSheet {
                     title: strings::TITLE,
                     kind: strings::KIND,
                     endings: &OTHER_ENDINGS,
-                    folder: None,
-                    name: None,
                     several: true,
+                    ..Asked::default()
                 };
                 let chosen = self.browse.show(ui, strings::PATHS, &asked);
                 self.take(chosen.into_iter().map(Source::Path).collect());

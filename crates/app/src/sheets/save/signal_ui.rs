@@ -1,6 +1,7 @@
 //! Options of an exported signal.
 
 use egui::{Checkbox, ComboBox, DragValue, Ui};
+use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::wav_encoding::{Level, SampleType};
 use shagreen_studio::render::SEAM_SECS;
 
@@ -9,7 +10,7 @@ use crate::state::signal_export::SignalExport;
 use crate::strings::signal as strings;
 
 /// Shortest and longest duration, in seconds.
-const SECS: std::ops::RangeInclusive<f64> = 0.05..=3600.0;
+const SECS: std::ops::RangeInclusive<f64> = 0.05..=MAX_TRACK_SECS;
 /// Sample rates to choose from, in Hz.
 const RATES_HZ: [u32; 6] = [4000, 8000, 16_000, 44_100, 48_000, 96_000];
 

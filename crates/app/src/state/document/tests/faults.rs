@@ -4,14 +4,14 @@
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use shagreen_core::maths::rng::Random;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::project::{Project, ProjectLibrary};
-use shagreen_studio::open::{Opened, open};
 
-use super::{Came, Document, DocumentFile};
+use super::support::{read, wait};
+use super::{Came, Document};
 use crate::state::edit::{Edit, edited};
 use crate::state::recovery::{Recovery, leftovers};
 
@@ -27,22 +27,6 @@ const USUAL_KILLS: usize = 10;
 
 fn project(name: &str) -> Project {
     Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), name)
-}
-
-fn read(path: &Path) -> (Project, DocumentFile) {
-    let Ok(Opened::Project(opened)) = open(path) else { panic!("{} is no project", path.display()) };
-    (opened.project, DocumentFile { path: path.to_owned(), sha256: Some(opened.sha256) })
-}
-
-fn wait(document: &mut Document) -> Came {
-    let begun = Instant::now();
-    loop {
-        if let Some(came) = document.collect() {
-            return came;
-        }
-        assert!(begun.elapsed().as_secs() < 20, "nothing came");
-        std::thread::yield_now();
-    }
 }
 
 /// Saves a project to a file that has an older one, while `step` fails.

@@ -2,14 +2,13 @@
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use shagreen_core::maths::rng::Random;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::project::{Project, ProjectLibrary};
-use shagreen_studio::open::{Opened, open};
 
-use super::{Came, Document, DocumentFile};
+use super::support::{read, wait};
+use super::{Came, Document};
 use crate::state::edit::{Edit, edited};
 use crate::state::recovery::{Recovery, leftovers};
 
@@ -32,22 +31,6 @@ impl Window {
             recovery: Recovery::new(folder).unwrap(),
         }
     }
-
-    fn wait(&mut self) -> Came {
-        let begun = Instant::now();
-        loop {
-            if let Some(came) = self.document.collect() {
-                return came;
-            }
-            assert!(begun.elapsed().as_secs() < 20, "nothing came");
-            std::thread::yield_now();
-        }
-    }
-}
-
-fn read(path: &Path) -> (Project, DocumentFile) {
-    let Ok(Opened::Project(opened)) = open(path) else { panic!("{} is no project", path.display()) };
-    (opened.project, DocumentFile { path: path.to_owned(), sha256: Some(opened.sha256) })
 }
 
 fn work_in(project: &Project) -> String {
@@ -96,13 +79,13 @@ fn run(seed: u64) {
                 let path = window.document.path().unwrap().to_owned();
                 let there = work_in(&read(&path).0);
                 window.document.save(&window.project, path.clone(), &ctx);
-                match window.wait() {
+                match wait(&mut window.document) {
                     Came::Saved(_) => {}
                     Came::Conflict(conflict) => match random.below(3) {
                         0 => {
                             // The user chose to lose what is in the file.
                             window.document.overwrite(&window.project, &conflict, &ctx);
-                            assert!(matches!(window.wait(), Came::Saved(_)));
+                            assert!(matches!(wait(&mut window.document), Came::Saved(_)));
                         }
                         1 => {
                             window.recovery.keep_aside(&window.project, window.document.file()).unwrap();
@@ -115,7 +98,7 @@ fn run(seed: u64) {
                         _ => {
                             let other = folder.path().join(format!("other {step}.shagreen"));
                             window.document.save(&window.project, other.clone(), &ctx);
-                            assert!(matches!(window.wait(), Came::Saved(_)));
+                            assert!(matches!(wait(&mut window.document), Came::Saved(_)));
                             files.push(other);
                             window.recovery.restart();
                             continue;
