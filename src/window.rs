@@ -14,8 +14,13 @@ use crate::cli::window::{FrameTimes, WindowRequest};
 pub(crate) fn open(request: WindowRequest) -> anyhow::Result<FrameTimes> {
     let WindowRequest { project, file, take, output, folders, measured_frames, started } = request;
     let output = output.map_or(OutputChoice::SystemDefault, OutputChoice::Id);
-    let keeping =
-        StoragePaths { recovery: folders.recovery, settings: folders.settings, models: folders.models };
+    let keeping = StoragePaths {
+        recovery: folders.recovery,
+        settings: folders.settings,
+        models: folders.models,
+        own: folders.own,
+        desktop: folders.desktop,
+    };
     let file = file.map(|(path, sha256)| DocumentFile { path, sha256: Some(sha256) });
     let begin = Begin { project, file, take, output, keeping };
     let times = shagreen_app::run(Start { begin, measured_frames, started })?;

@@ -18,6 +18,7 @@ use crate::cli::calibrate_recording::recorded_file;
 use crate::cli::calibrate_result::{print, profile};
 use crate::cli::calibrate_sweep::write_sweep;
 use crate::cli::output;
+use crate::cli::progress::Progress;
 use crate::cli::rig::channels;
 use crate::cli::sweep_checks::{advised, other_sound};
 use shagreen_studio::figure_files::{check_figures, check_together, figure_files, write_together};
@@ -94,6 +95,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             record_live((id, *channels), listener, &sweep, base.as_ref(), drive)?
         }
     };
+    let progress = Progress::endless("computing the response");
     let calibration = calibrate(&recorded.acceleration_mps2, recorded.rate, &sweep, drive);
     let calibration = source.told(calibration.map_err(|error| advised(&error, &recorded, &sweep)))?;
     let mut warnings: Vec<String> = calibration.warnings.iter().map(ToString::to_string).collect();
@@ -117,6 +119,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
     }
     write_together(&files, args.plots.as_deref())?;
+    progress.finish();
     print(args, &recorded, &calibration, &fit, (&warnings, &figures));
     Ok(())
 }

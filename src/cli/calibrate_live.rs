@@ -9,7 +9,8 @@ use shagreen_device::measure::{Listener, SILENCE_SECS, measure};
 
 use crate::cli::calibrate_recording::Recorded;
 use crate::cli::calibrate_sweep::by_option;
-use crate::cli::output::{self, Progress};
+use crate::cli::output;
+use crate::cli::progress::{Progress, in_ms};
 
 /// Plays the sweep on these channels of output `id` and returns the acceleration that the sensor measures. The limits
 /// of a known actuator apply.
@@ -23,7 +24,7 @@ pub(crate) fn record_live(
     let limits = actuator.map_or(Limits::default(), Actuator::limits_in_volts);
     let driven = (limited_drive(&limits, drive), channels);
     let secs = sweep.seconds + 2.0 * sweep.silence_secs + 2.0 * SILENCE_SECS;
-    let progress = Progress::new("ms measured", output::in_ms(secs));
+    let progress = Progress::new("measuring the response", in_ms(secs));
     let drive_at = |rate_hz: f64| sweep.drive_samples(rate_hz).map_err(|error| by_option(&error));
     let heard = measure(id, driven, listener, &drive_at, &mut |share| {
         progress.set_secs(share * secs);

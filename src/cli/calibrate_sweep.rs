@@ -9,6 +9,7 @@ use shagreen_core::units::Hertz;
 use shagreen_formats::wav;
 
 use crate::cli::output;
+use crate::cli::wav_name::check_wav_name;
 use shagreen_studio::replace::refuse_foreign;
 
 /// Sweep to write, or the one that was played.
@@ -64,6 +65,7 @@ pub(crate) fn by_option(error: &SweepError) -> String {
 
 /// Writes the sweep to a WAV file, for any player.
 pub(crate) fn write_sweep(sweep: &Sweep, rate_hz: u32, out: &Path, as_json: bool) -> anyhow::Result<()> {
+    check_wav_name(out)?;
     refuse_foreign(out, "the sweep", |bytes| bytes.starts_with(b"RIFF"))?;
     let samples = sweep.drive_samples(f64::from(rate_hz)).map_err(|error| anyhow!(by_option(&error)))?;
     wav::write_samples(out, &samples, rate_hz)?;

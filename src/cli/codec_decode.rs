@@ -14,6 +14,8 @@ use shagreen_formats::codec_tables::built_in_codebooks;
 use shagreen_formats::wav::{SidecarV1, sidecar_path, write_wav};
 
 use crate::cli::output;
+use crate::cli::progress::Progress;
+use crate::cli::wav_name::check_wav_name;
 use shagreen_studio::file;
 use shagreen_studio::replace::{refuse_foreign_signal, refuse_inputs};
 
@@ -36,9 +38,11 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+    check_wav_name(&args.out)?;
     let beside = sidecar_path(&args.out);
     refuse_inputs(&[&args.out, &beside], &[Some(&args.stream)])?;
     refuse_foreign_signal(&args.out)?;
+    let progress = Progress::endless("decoding the stream");
     let bytes = file::read_file(&args.stream, FileKind::Recording)?;
     let read = read_stream(&bytes).with_context(|| file::in_file(&args.stream))?;
     for warning in &read.warnings {
@@ -53,6 +57,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         coded.decode(&Arc::new(built_in_codebooks()?)).into_iter().map(|x| x as f32).collect();
     let sidecar = SidecarV1::new(CODEC_RATE.0 as u32, coded.seconds(), 0, output::CREATED_BY);
     write_wav(&args.out, &samples, &sidecar)?;
+    progress.finish();
     let n_lost = coded.frames.iter().filter(|frame| frame.is_none()).count();
     let (kbps, frames, seconds) = (coded.rate.kbps(), coded.frames.len(), coded.seconds());
     let felt: Vec<f64> = samples.iter().map(|x| f64::from(*x)).collect();

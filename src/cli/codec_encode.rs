@@ -15,6 +15,7 @@ use shagreen_formats::codec_stream::{is_stream, write_stream};
 use shagreen_formats::codec_tables::built_in_codebooks;
 
 use crate::cli::output;
+use crate::cli::progress::Progress;
 use crate::cli::signal_source::SignalArgs;
 use shagreen_studio::file;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
@@ -61,6 +62,7 @@ pub(crate) fn kbps(text: &str) -> Result<Bitrate, String> {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[Some(&args.signal)])?;
     refuse_foreign(&args.out, "the stream", is_stream)?;
+    let progress = Progress::endless("encoding the signal");
     let signal = args.signals.load_at(&args.signal, CODEC_RATE)?;
     let books = Arc::new(built_in_codebooks()?);
     let coded = Coded::encode(&signal, args.kbps, &books).with_context(|| file::in_file(&args.signal))?;
@@ -72,6 +74,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         ));
     }
     atomic::write(&args.out, &bytes)?;
+    progress.finish();
     let (kbps, frames, bits, seconds) =
         (args.kbps.kbps(), coded.frames.len(), coded.n_bits(), coded.seconds());
     let delay_ms = 1e3 * DELAY_SAMPLES as f64 / CODEC_RATE.0;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use serde_json::{Value, json};
-use shagreen_device::audio_input::list_inputs;
+use shagreen_device::audio_input::{InputInfo, list_inputs};
 use shagreen_device::output::{OutputKind, list_outputs};
 use shagreen_device::serial::{SerialPortInfo, SerialPortKind, list_serial_ports};
 use shagreen_device::stylus::{StylusInfo, StylusKind, StylusList, list_styluses};
@@ -65,7 +65,7 @@ fn list(as_json: bool) {
     let result = json!({
         "styluses": styluses.iter().map(stylus_json).collect::<Vec<_>>(),
         "outputs": outputs.iter().map(output_json).collect::<Vec<_>>(),
-        "inputs": inputs.iter().map(|input| json!({"id": input.id, "name": input.name})).collect::<Vec<_>>(),
+        "inputs": inputs.iter().map(input_json).collect::<Vec<_>>(),
         "serial": serial.iter().map(serial_json).collect::<Vec<_>>(),
     });
     output::print(as_json, &result, || {
@@ -83,6 +83,10 @@ fn list(as_json: bool) {
 
 fn line(id: &str, name: &str) -> String {
     format!("  {id}  {name}")
+}
+
+fn input_json(input: &InputInfo) -> Value {
+    json!({"id": input.id, "name": input.name, "monitor_of": input.monitor_of})
 }
 
 fn stylus_json(stylus: &StylusInfo) -> Value {

@@ -13,7 +13,7 @@ use shagreen_learn::backbone::Backbone;
 use shagreen_learn::picture_predictor::{LookingError, see};
 use shagreen_learn::picture_set::{PictureSet, Seen};
 
-use crate::cli::output::Progress;
+use crate::cli::progress::Progress;
 use shagreen_studio::file;
 use shagreen_studio::parallel::in_parallel;
 
@@ -62,7 +62,7 @@ pub(crate) fn drawn_pictures(
             set.pictures.iter_mut().for_each(|seen| seen.features.truncate(N_FEATURES));
         }
     }
-    let progress = Progress::new("pictures", n);
+    let progress = Progress::new("computing the features of pictures", n);
     for _ in 0..set.pictures.len().min(n) {
         progress.step();
     }

@@ -16,7 +16,8 @@ use shagreen_formats::evaluation_report::{
 use shagreen_formats::library::Library;
 
 use crate::cli::library_args::LibraryArgs;
-use crate::cli::output::{self, Progress};
+use crate::cli::output;
+use crate::cli::progress::Progress;
 use crate::cli::quantity::count;
 use crate::cli::quantity::within;
 use shagreen_studio::figure_files::{check_figures, figure_files, write_together};
@@ -110,7 +111,7 @@ fn measure(library: &Library, plan: &Plan) -> Result<LeaveOneOut, LeaveOneOutErr
         library.textures.iter().map(|texture| (&texture.model, texture.at())).collect();
     let mut progress: Option<Progress> = None;
     let measured = leave_one_out(&textures, plan, &mut |n_done, n| {
-        let bar = progress.get_or_insert_with(|| Progress::new("textures left out", n));
+        let bar = progress.get_or_insert_with(|| Progress::new("evaluating the textures", n));
         if n_done > 0 {
             bar.step();
         }

@@ -20,7 +20,8 @@ use shagreen_formats::quality_model::built_in_quality_model;
 use shagreen_formats::thresholds::ThresholdKind;
 
 use crate::cli::library_args::LibraryArgs;
-use crate::cli::output::{self, Progress};
+use crate::cli::output;
+use crate::cli::progress::Progress;
 use crate::cli::quantity::{positive, within};
 
 /// Encodes every texture of a library at the codec's five bit rates and measures the loss: the signal-to-noise ratio,
@@ -79,7 +80,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         model: built_in_quality_model()?,
     };
     let is_known = args.library.path().is_none();
-    let progress = Progress::new("textures", library.textures.len());
+    let progress = Progress::new("encoding the textures", library.textures.len());
     let mut rows = Vec::with_capacity(library.textures.len());
     for (index, texture) in library.textures.iter().enumerate() {
         let held_out = is_known.then(|| is_held_out(index));

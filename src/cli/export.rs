@@ -20,7 +20,7 @@ pub(crate) struct Args {
     texture: String,
     #[command(flatten)]
     library: LibraryArgs,
-    /// File format.
+    /// File format. `shagreen render` writes the WAV file of a stroke.
     #[arg(long, value_parser = parser())]
     format: Format,
     /// File to write.

@@ -9,7 +9,7 @@ use shagreen_core::maths::gaussian_process::Estimate;
 use shagreen_core::space::authoring::Blending;
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::surfaces::generated::{CombinedEstimate, place};
-use shagreen_core::surfaces::prompt::{interpret, title};
+use shagreen_core::surfaces::prompt::{PromptInterpretation, interpret, title};
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
@@ -25,7 +25,8 @@ use shagreen_learn::picture_predictor::PicturePredictor;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::model_folder::model_folder;
-use crate::cli::output::{self, Printed, Progress};
+use crate::cli::output::{self, Printed};
+use crate::cli::progress::Progress;
 use crate::cli::prompt_summary::prompt_summary;
 use shagreen_studio::authoring::authoring;
 use shagreen_studio::figure_files::{check_together, write_together};
@@ -92,12 +93,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let understood = interpret(&args.prompt, built_in_lexicon()?);
     let name = title(&args.prompt, LONGEST_NAME).unwrap_or_else(|| "Generated".to_owned());
     // Whatever can fail is checked before hours of computing.
-    let looker = PicturePredictor::built_in(read_backbone(&args.backbone)?)?;
-    let made = if args.diffusion {
-        by_diffusion(args)?
-    } else {
-        generate_procedurally(&name, &understood, args.size as usize, args.seed)?
-    };
+    let looker = read_looker(args)?;
+    let made = picture_of_prompt(args, &name, &understood)?;
+    let progress = Progress::endless("predicting the position of the picture");
     let [rough, hard] = looker.look(&made.for_prediction())?[..] else {
         bail!("the picture model does not predict rough-smooth and hard-soft; reinstall Shagreen")
     };
@@ -160,6 +158,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     files.push((file(TEXTURE), write_library(&library_of_one)));
     files.push((file(&project_name), write_project(&project, &args.out, output::CREATED_BY)));
     write(&args.out, files, &mut result)?;
+    progress.finish();
     output::print(args.json, &result, || {
         let line = |(name, axis): (&str, &CombinedEstimate)| {
             format!("{name:<13}  {:5.1} ± {:.1}\n", axis.estimate.mean, axis.estimate.deviation)
@@ -217,6 +216,23 @@ fn felt_at(library: &Library, at: SpacePoint) -> anyhow::Result<TextureModel> {
     })
 }
 
+fn read_looker(args: &Args) -> anyhow::Result<PicturePredictor> {
+    let _progress = Progress::endless("reading the picture model");
+    Ok(PicturePredictor::built_in(read_backbone(&args.backbone)?)?)
+}
+
+fn picture_of_prompt(
+    args: &Args,
+    name: &str,
+    understood: &PromptInterpretation,
+) -> anyhow::Result<GeneratedPicture> {
+    if args.diffusion {
+        return by_diffusion(args);
+    }
+    let _progress = Progress::endless("generating the picture");
+    generate_procedurally(name, understood, args.size as usize, args.seed)
+}
+
 fn by_diffusion(args: &Args) -> anyhow::Result<GeneratedPicture> {
     let most = LONGEST_SIDE;
     ensure!(
@@ -233,7 +249,7 @@ fn by_diffusion(args: &Args) -> anyhow::Result<GeneratedPicture> {
         n_steps: args.steps as usize,
         ..Wish::usual(&args.prompt, args.seed)
     };
-    let progress = Progress::new("denoising steps", wish.n_steps);
+    let progress = Progress::new("generating the picture", wish.n_steps);
     let made = generate_by_diffusion(&folder, &added, &wish, || {
         progress.step();
         true

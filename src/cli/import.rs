@@ -36,6 +36,7 @@ pub(crate) struct Outcome<'a> {
     imported: Vec<(TextureEntry, Value)>,
     failed: Vec<(PathBuf, String)>,
     warnings: Vec<String>,
+    notes: Vec<String>,
 }
 
 impl<'a> Outcome<'a> {
@@ -55,8 +56,8 @@ impl<'a> Outcome<'a> {
             )));
         }
         let library = existing(&destination.out)?;
-        let (claimed, imported, failed, warnings) = Default::default();
-        Ok(Self { destination, library, claimed, imported, failed, warnings })
+        let (claimed, imported, failed, warnings, notes) = Default::default();
+        Ok(Self { destination, library, claimed, imported, failed, warnings, notes })
     }
 
     /// Returns an identifier for a texture with this name: a free one, or that of the texture to replace.
@@ -89,6 +90,13 @@ impl<'a> Outcome<'a> {
     /// Records a warning about a file.
     pub(crate) fn warn(&mut self, file: &Path, message: &str) {
         self.warn_of_all(format!("{}: {message}", file.display()));
+    }
+
+    /// Records a note about a file.
+    pub(crate) fn note(&mut self, file: &Path, message: &str) {
+        let note = format!("{}: {message}", file.display());
+        output::note(&note);
+        self.notes.push(note);
     }
 
     /// Records a warning that concerns no single file.
@@ -125,6 +133,7 @@ impl<'a> Outcome<'a> {
             "imported": n_imported,
             "failed": failed,
             "warnings": self.warnings,
+            "notes": self.notes,
             "textures": textures,
         });
         if let (Some(result), Value::Object(more)) = (result.as_object_mut(), more) {

@@ -9,7 +9,7 @@ use shagreen_formats::hatt::read_hatt;
 use shagreen_formats::library::{Provenance, name_from_file};
 
 use crate::cli::import::{Destination, Outcome, files_in};
-use crate::cli::output::Progress;
+use crate::cli::progress::Progress;
 use shagreen_studio::file::{self, file_name};
 
 /// Imports texture models in the XML of the Penn Haptic Texture Toolkit (HaTT).
@@ -29,9 +29,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let files = model_files(&args.files)?;
     let mut outcome = Outcome::new(&args.destination, &files)?;
     let mut restricted = Vec::new();
-    let progress = Progress::new("models", files.len());
+    let progress = Progress::new("importing the models", files.len());
     for file in &files {
-        let read = file::read_file(file, FileKind::Document).map_err(|error| format!("{error:#}"));
+        // The outcome adds the name of the file.
+        let read = file::read_file(file, FileKind::Document).map_err(|error| error.root_cause().to_string());
         match read.and_then(|bytes| read_hatt(&bytes).map_err(|error| error.to_string())) {
             Err(reason) => outcome.failed(file, reason),
             Ok(read) => {

@@ -14,7 +14,7 @@ use shagreen_formats::library::{TextureEntry, name_from_file};
 use shagreen_formats::recording::{Ask, ColumnMap};
 
 use crate::cli::import::{Destination, Outcome, files_in};
-use crate::cli::output::Progress;
+use crate::cli::progress::Progress;
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::read_recording_file;
 use shagreen_studio::file::{self, file_name};
@@ -81,7 +81,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         }
     };
     let mut questions = Vec::new();
-    let progress = Progress::new("recordings", jobs.len());
+    let progress = Progress::new("fitting the recordings", jobs.len());
     for job in &jobs {
         import(args, &paths, &map, job, &mut outcome, &mut questions)?;
         progress.step();
@@ -205,6 +205,9 @@ fn read(
     }));
     for warning in &read.warnings {
         outcome.warn(file, warning);
+    }
+    for note in &read.notes {
+        outcome.note(file, note);
     }
     read.recording
 }

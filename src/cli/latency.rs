@@ -20,14 +20,16 @@ use shagreen_device::texture::OwnedTexture;
 use shagreen_formats::starter::starter_library;
 
 use crate::cli::latency_onsets::{STROKE_SECS, quantile, stroke_onset, tap_onset};
-use crate::cli::output::{self, Progress};
+use crate::cli::output;
+use crate::cli::progress::{Progress, in_ms};
 use crate::cli::rig::{Rig, RigArgs};
 
 /// Measures the latency from a pen report to the output signal: replays simulated pen reports through the same
 /// processing as a real pen, records the output, and compares the times.
 ///
-/// The input must record the output: through a cable, an accelerometer on the actuator, or the monitor of a sound
-/// server's sink. If the input does not report its own latency, the results include it.
+/// The input must record the output: through a cable, an accelerometer on the actuator, or the monitor of the output,
+/// which `shagreen devices` marks with "(monitor of ID)". A monitor does not contain the delay of the sound card. If
+/// another input does not report its own latency, the results include it.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -150,7 +152,7 @@ fn measure(args: &Args, with_taps: bool) -> anyhow::Result<Measured> {
     let tracking = TrackerOptions { speed_filter: SpeedFilter::KALMAN, pressure_map: PressureMap::USUAL };
     let options = PenOptions { id: REPLAY_ID.to_owned(), tracking, size_m: None };
     let pen = PenThread::start(bus, options, handle.take_live_input())?;
-    let progress = Progress::new("ms measured", output::in_ms(seconds));
+    let progress = Progress::new("measuring the latency", in_ms(seconds));
     let begun = Instant::now();
     while begun.elapsed().as_secs_f64() < seconds {
         std::thread::sleep(Duration::from_millis(10));

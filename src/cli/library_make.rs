@@ -12,7 +12,8 @@ use shagreen_formats::library::{Library, PhysicalLabels, Place, TextureEntry, wr
 use shagreen_formats::materials_toml::{Materials, read_materials};
 use shagreen_formats::{atomic, picture};
 
-use crate::cli::output::{self, Progress};
+use crate::cli::output;
+use crate::cli::progress::Progress;
 use shagreen_studio::file;
 use shagreen_studio::parallel::in_parallel;
 use shagreen_studio::replace::{refuse_inputs, refuse_lost_textures};
@@ -51,7 +52,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[Some(&args.materials)])?;
     let bytes = file::read_file(&args.materials, FileKind::Document)?;
     let materials = read_materials(&bytes).with_context(|| file::in_file(&args.materials))?;
-    let progress = Progress::new("materials", materials.materials.len());
+    let progress = Progress::new("simulating the materials", materials.materials.len());
     let mut library = make_library(&materials, &|| progress.step())?;
     progress.finish();
     library.name.clone_from(&args.name);

@@ -6,6 +6,7 @@ use serde_json::json;
 
 use crate::cli::model_folder::model_folder;
 use crate::cli::output;
+use crate::cli::progress::Progress;
 
 /// Registers a diffusion model that generates pictures from text: Stable Diffusion 2.1, or another model with the same
 /// file layout.
@@ -26,7 +27,9 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     output::note("reading the whole model: this needs memory of two to four times the size of the model");
+    let progress = Progress::endless("reading the model");
     let added = model_folder()?.add_diffusion(&args.folder)?;
+    progress.finish();
     let result = json!({"model": added.name(), "folder": added.folder, "sha256": added.sha256});
     output::print(args.json, &result, || {
         let line = |(name, hash): (&String, &String)| format!("{hash}  {name}");

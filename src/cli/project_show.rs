@@ -8,6 +8,7 @@ use shagreen_formats::project::{AuthoredTexture, ProjectLibrary};
 use shagreen_studio::library_names;
 
 use crate::cli::output::{self, Printed};
+use crate::cli::own_folder::permitted_libraries;
 use shagreen_studio::project::{load_project, textures_of};
 
 /// Shows the contents of a project.
@@ -22,7 +23,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let project = load_project(&args.file, &Printed)?;
+    let project = load_project(&args.file, &permitted_libraries(), &Printed)?;
     let textures = textures_of(&project)?;
     let kept = match &project.library {
         ProjectLibrary::BuiltIn(built_in) => json!({"built_in": built_in.id()}),

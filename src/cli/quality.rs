@@ -11,6 +11,7 @@ use shagreen_formats::quality_model::built_in_quality_model;
 use shagreen_formats::thresholds::ThresholdKind;
 
 use crate::cli::output;
+use crate::cli::progress::Progress;
 use crate::cli::signal_source::SignalArgs;
 use crate::cli::words::words;
 use shagreen_studio::file;
@@ -47,6 +48,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let rate = PAPER_RATE;
+    let progress = Progress::endless("comparing the signals");
     let mut reference = args.signals.load_at(&args.reference, rate)?;
     let mut test = args.signals.load_at(&args.test, rate)?;
     let n_samples = reference.len().min(test.len());
@@ -100,6 +102,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             None => json!({"distance": distance, "unit": feature.unit()}),
         };
     }
+    progress.finish();
     output::print(args.json, &answer, || text(&answer));
     Ok(())
 }

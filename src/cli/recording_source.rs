@@ -17,6 +17,8 @@ pub(crate) struct RecordingRead {
     pub(crate) questions: Vec<Question>,
     /// Warnings, including the guesses.
     pub(crate) warnings: Vec<String>,
+    /// Ordinary steps of the conversion.
+    pub(crate) notes: Vec<String>,
 }
 
 /// Reads a recording, and its sidecar with units if there is one.
@@ -25,6 +27,7 @@ pub(crate) fn read_recording_file(file: &Path, map: &ColumnMap) -> RecordingRead
         recording: Err(reason),
         questions: Vec::new(),
         warnings: Vec::new(),
+        notes: Vec::new(),
     };
     // The caller adds the name of the file.
     let bytes = match file::read_file(file, FileKind::Recording) {
@@ -47,14 +50,17 @@ pub(crate) fn read_recording_file(file: &Path, map: &ColumnMap) -> RecordingRead
                 Ok((recording, findings)) => (Ok(recording), findings),
                 Err(error) => (Err(error.to_string()), error.findings),
             };
-            warnings.extend(findings.iter().map(ToString::to_string));
-            RecordingRead { recording, questions: read.questions, warnings }
+            let (ordinary, others): (Vec<_>, Vec<_>) =
+                findings.iter().partition(|finding| finding.is_ordinary());
+            warnings.extend(others.into_iter().map(ToString::to_string));
+            let notes = ordinary.into_iter().map(ToString::to_string).collect();
+            RecordingRead { recording, questions: read.questions, warnings, notes }
         }
         Err(RecordingFileError::NeedsAnswers(needed)) => {
             let mut warnings = guessed(&needed.questions);
             warnings.extend(needed.warnings.iter().cloned());
             let reason = format!("{needed}; state this with --set KEY=VALUE or --map MAP.toml");
-            RecordingRead { recording: Err(reason), questions: needed.questions, warnings }
+            RecordingRead { recording: Err(reason), questions: needed.questions, warnings, notes: Vec::new() }
         }
         Err(error) => failed(error.to_string()),
     }

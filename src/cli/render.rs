@@ -1,7 +1,6 @@
 //! `shagreen render`: renders a texture to a WAV file.
 
-use std::ffi::OsStr;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
 use serde_json::json;
@@ -12,12 +11,15 @@ use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::library::Library;
 use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav_as};
 use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
+use shagreen_studio::export::{Rendered, lost_in_wav};
 use shagreen_studio::render::{SEAM_SECS, SampleFormat, render_along, render_mixture};
 use shagreen_studio::report::Reporter as _;
 
 use crate::cli::motion::{Motion, MotionArgs, motion};
-use crate::cli::output::{self, Printed, Progress};
+use crate::cli::output::{self, Printed};
+use crate::cli::progress::{Progress, in_ms};
 use crate::cli::target::SoundArgs;
+use crate::cli::wav_name::check_wav_name;
 use crate::cli::words::words;
 use shagreen_studio::replace::{refuse_foreign_signal, refuse_inputs};
 use shagreen_studio::sound::Sound;
@@ -76,6 +78,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let sidecar = sidecar(args, &library, &chosen, &motion, rate_hz);
     let seconds = samples.len() as f64 / f64::from(rate_hz);
+    let follows_stroke = motion.stroke_path().is_some();
     if let (Motion::Stroke { contacts, .. }, Some(tap)) = (motion, chosen.tap) {
         let model_rate_hz = chosen.rate(&library)?.0;
         add_tap_transients(&mut samples, rate_hz, model_rate_hz, contacts.into_track()?, tap.into())?;
@@ -90,6 +93,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     write_wav_as(&args.out, &samples, &sidecar, encoding)?;
     if full_scale == 1.0 && peak > 1.0 {
         Printed.note("players clip what exceeds 1 m/s²; --normalize scales the signal for them");
+    }
+    let texture = chosen.texture.as_deref().and_then(|id| library.index_of(id));
+    let lost = lost_in_wav(Rendered {
+        texture: texture.map(|index| &library.textures[index]),
+        has_tap: chosen.tap.is_some(),
+        follows_stroke,
+    });
+    for lost in &lost {
+        Printed.note(&format!("not stored in the file: {lost}"));
     }
     output::print(
         args.json,
@@ -107,6 +119,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "extrapolated": chosen.extrapolated,
             "blend": chosen.mode.id(),
             "seed": args.seed,
+            "lost": lost,
         }),
         || {
             format!(
@@ -125,19 +138,6 @@ fn bits_word(of: SampleType) -> &'static str {
         SampleType::Float32 => "32",
         SampleType::Pcm24 => "24",
         SampleType::Pcm16 => "16",
-    }
-}
-
-/// Only WAV files are written; another ending would promise another format.
-fn check_wav_name(path: &Path) -> anyhow::Result<()> {
-    match path.extension().and_then(OsStr::to_str) {
-        Some(ending) if !ending.eq_ignore_ascii_case("wav") => {
-            bail!(
-                "only WAV files are written, not .{ending}; choose a name ending in .wav: {}",
-                path.display()
-            )
-        }
-        _ => Ok(()),
     }
 }
 
@@ -174,8 +174,7 @@ fn samples(
     motion: &Motion,
     rate_hz: u32,
 ) -> anyhow::Result<Vec<f32>> {
-    let mut hand =
-        Watched { motion, progress: Progress::new("ms rendered", output::in_ms(motion.seconds())) };
+    let mut hand = Watched { motion, progress: Progress::new("rendering", in_ms(motion.seconds())) };
     if args.loops && motion.seconds() > MAX_TRACK_SECS - SEAM_SECS {
         bail!("a loop lasts at most {} s; choose a shorter duration", MAX_TRACK_SECS - SEAM_SECS);
     }

@@ -17,7 +17,8 @@ use shagreen_formats::library::write_library;
 use shagreen_formats::space_report::{FIGURES, FORMAT, space_report, space_subtitle};
 
 use crate::cli::library_args::LibraryArgs;
-use crate::cli::output::{self, Progress, Usage, warn_of_restricted};
+use crate::cli::output::{self, Usage, warn_of_restricted};
+use crate::cli::progress::Progress;
 use crate::cli::quantity::count;
 use crate::cli::space_judgments::{JudgmentArgs, Judgments};
 use crate::cli::words::words;
@@ -131,7 +132,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let Judgments { sorts, ratings, votes, source, warnings } = args.judgments.read()?;
     let textures = library.textures.iter().map(|t| NamedTexture { name: &t.id, model: &t.model }).collect();
     let data = SpaceData { textures, sorts, ratings, votes, source };
-    let progress = Progress::new("steps", Step::COUNT);
+    let progress = Progress::new("building the space", Step::COUNT);
     let n_done = Mutex::new(0);
     let BuiltSpace { build: built, placed, figures, validation } = space::build(&data, &options, &|step| {
         let mut n_done = n_done.lock().unwrap_or_else(PoisonError::into_inner);

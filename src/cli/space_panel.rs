@@ -17,6 +17,7 @@ use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
+use crate::cli::progress::Progress;
 use crate::cli::quantity::count;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
@@ -84,9 +85,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         scale_log_spread: args.scale,
         seed: args.seed,
     };
+    let progress = Progress::endless("simulating the participants");
     let sorts = simulated_sorts(&ids, &labels, &args.groups, &config)?;
     let ratings = simulated_ratings(&ids, &labels, &pairs, &config)?;
     atomic::write_all(&[(&args.sorting, &sorting_csv(&sorts)), (&args.ratings, &ratings_csv(&ratings))])?;
+    progress.finish();
     let names: Vec<String> = pairs.iter().map(AdjectivePair::name).collect();
     let (n_sorts, n_ratings) = (sorts.len(), ratings.len());
     output::print(

@@ -20,7 +20,9 @@ use shagreen_studio::replace::{has_format, is_library, refuse_foreign, refuse_in
 
 /// Places textures at the positions in a table.
 ///
-/// The table has the columns `id`, `rs` (0 = roughest, 100 = smoothest) and `hs` (0 = hardest, 100 = softest). It can
+/// The table has the columns `id`, `rs` (0 = roughest, 100 = smoothest) and `hs` (0 = hardest, 100 = softest). The ids
+/// are those of the library: `shagreen library list --library L` shows them, and `shagreen library places --library L
+/// --out A.csv` writes a table of them to edit. Without --library, they are the ids of the starter library. The table can
 /// have columns of other attributes, each named by its two poles, such as `flat-bumpy`. For other axes, name the
 /// columns of the position `x:` and `y:` with the attribute, such as `x:warm-cold` and `y:flat-bumpy`. `--scale` states
 /// a scale other than 0 to 100. A column `source` states the source of each position; otherwise `--source` states one
@@ -30,7 +32,7 @@ use shagreen_studio::replace::{has_format, is_library, refuse_foreign, refuse_in
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
-    /// CSV file with the columns id, rs, hs.
+    /// CSV file with the columns id, rs, hs; `shagreen library list` shows the ids.
     #[arg(long, value_name = "A.csv")]
     attributes: PathBuf,
     /// Library file to write.

@@ -13,6 +13,7 @@ use shagreen_formats::atomic;
 
 use crate::cli::output::{self, Usage};
 use crate::cli::profile_source::ProfileArgs;
+use crate::cli::progress::Progress;
 use crate::cli::quantity::positive;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
@@ -69,10 +70,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if is_constant(values) {
         bail!("the profile is constant, so there is nothing to analyze: {}", args.profile.path().display());
     }
+    let progress = Progress::endless("analyzing the profile");
     let found = fidelity_by_window(values, step_m, &framings)?;
     if let (Some(out), [framing]) = (&args.out, framings.as_slice()) {
         atomic::write(out, table(values, step_m, *framing)?.as_bytes())?;
     }
+    progress.finish();
     let rows: Vec<Value> = found.iter().map(row).collect();
     let answer = json!({
         "samples": values.len(),

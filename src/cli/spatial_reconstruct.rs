@@ -12,6 +12,7 @@ use shagreen_formats::profile_csv::{is_profile_csv, profile_csv};
 
 use crate::cli::output;
 use crate::cli::profile_source::ProfileArgs;
+use crate::cli::progress::Progress;
 use crate::cli::quantity::positive;
 use crate::cli::spatial_analyse::{line, row};
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
@@ -44,6 +45,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let profile = args.profile.load()?;
     let (values, step_m) = (profile.values(), profile.step_m());
     let transform = Transform::new(args.profile.framing(&profile, args.window)?);
+    let progress = Progress::endless("reconstructing the profile");
     let spectrogram = SpatialSpectrogram::of(values, &transform)?;
     let mut made = profile_of(&spectrogram, &transform);
     if args.refine > 0 {
@@ -51,6 +53,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let found = fidelity(values, &made, step_m, &spectrogram, &transform)?;
     atomic::write(&args.out, profile_csv(&Profile::new(step_m, made)?).as_bytes())?;
+    progress.finish();
     let mut answer = row(&found);
     answer["out"] = json!(args.out.display().to_string());
     answer["refined"] = json!(args.refine);

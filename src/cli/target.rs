@@ -12,6 +12,7 @@ use shagreen_studio::sound::Sound;
 use crate::cli::blending::BlendArgs;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed};
+use crate::cli::own_folder::permitted_libraries;
 
 /// Texture to render or play.
 #[derive(clap::Args)]
@@ -70,7 +71,11 @@ impl SoundArgs {
 
     /// Loads the textures that the arguments name.
     pub(crate) fn load_textures(&self) -> anyhow::Result<Textures> {
-        let project = self.project.as_deref().map(|path| load_project(path, &Printed)).transpose()?;
+        let project = self
+            .project
+            .as_deref()
+            .map(|path| load_project(path, &permitted_libraries(), &Printed))
+            .transpose()?;
         let library = match &project {
             Some(project) => textures_of(project)?,
             None => self.library.load()?,

@@ -12,6 +12,7 @@ use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library,
 use crate::cli::blending::BlendArgs;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed};
+use crate::cli::progress::Progress;
 use crate::cli::quantity::within;
 use crate::cli::target::parse_point;
 use crate::cli::words::words;
@@ -66,6 +67,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let (scale, unit) = args.along.unit();
     let stops = args.stops.iter().map(|(at, x)| Stop { at: *at, along: scale * x }).collect();
     let route = Route::new(args.along, args.at_end, stops)?;
+    let progress = Progress::endless("interpolating the textures of the path");
     let authoring = authoring(&library, blending.mode, &Printed)?;
     let path = TexturePath::of_route(&authoring, &route, &blending)?;
     let outside = HullCounts::of(&authoring, &path, &blending);
@@ -83,6 +85,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         output::warn(warning);
     }
     atomic::write(&args.out, &write_library(&made))?;
+    progress.finish();
     let file = args.out.display().to_string();
     output::print(
         args.json,

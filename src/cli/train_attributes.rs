@@ -14,6 +14,7 @@ use shagreen_formats::attribute_table::attribute_table;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::method_predictions::{Comparison, MethodPredictions};
 use crate::cli::output;
+use crate::cli::progress::Progress;
 use crate::cli::train_networks::{NetworkArgs, check_out, train_networks};
 
 /// Trains predictors of texture attributes on the texture models of a library. Reports leave-one-texture-out errors: each
@@ -54,6 +55,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         library.name,
         counted(known.len(), "texture")
     );
+    let progress = Progress::endless("predicting each texture from the others");
     let estimates = leave_one_out(&known)?;
     let means = |of: &[Estimate]| of.iter().map(|estimate| estimate.mean).collect::<Vec<f64>>();
     let mut all = vec![MethodPredictions {
@@ -65,6 +67,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         predicted: linear_leave_one_out(&known)?,
     });
     all.push(MethodPredictions::mean_of_others(&table.values));
+    progress.finish();
     let trained = train_networks(&args.networks, args.state.as_deref(), &library, &table)?;
     all.extend(trained.judged);
 

@@ -22,7 +22,8 @@ use shagreen_learn::stroke_set::StrokedTexture;
 use shagreen_learn::training::{Training, TrainingConfig};
 
 use crate::cli::method_predictions::MethodPredictions;
-use crate::cli::output::{self, Progress};
+use crate::cli::output;
+use crate::cli::progress::Progress;
 use crate::cli::words::words;
 use shagreen_studio::file;
 use shagreen_studio::parallel::{in_parallel_by, n_processors};
@@ -131,7 +132,9 @@ pub(crate) fn train_networks(
             .context("cannot create the folder; check its name and your permissions")
             .with_context(|| file::in_file(folder))?;
     }
+    let rendering = Progress::endless("rendering the training strokes");
     let textures = strokes(args, library, table)?;
+    rendering.finish();
     let config = |network: Network| {
         TrainingConfig::paper(
             network.architecture(table.names.len()),
@@ -142,7 +145,7 @@ pub(crate) fn train_networks(
     };
     for network in &args.networks {
         let progress =
-            Progress::of_hours("thousandths of an epoch", textures.len() * in_thousandths(args.epochs));
+            Progress::of_hours("training the network", textures.len() * in_thousandths(args.epochs));
         let failed = AtomicBool::new(false);
         let of = in_parallel_by(args.n_jobs(), textures.len(), |index| {
             let mut others: Vec<&StrokedTexture> = textures.iter().collect();
@@ -171,7 +174,7 @@ pub(crate) fn train_networks(
     if let (Some(out), Some(network)) = (&args.out, args.networks.first()) {
         let kept = state.map(|folder| folder.join(format!("{}-of-all.safetensors", network.id())));
         let all: Vec<&StrokedTexture> = textures.iter().collect();
-        let progress = Progress::of_hours("thousandths of an epoch", in_thousandths(args.epochs));
+        let progress = Progress::of_hours("training the network", in_thousandths(args.epochs));
         let what = format!("{} of all", network.id());
         let never = AtomicBool::new(false);
         let training = train(&all, config(*network), kept.as_deref(), &what, &progress, &never)?;
@@ -225,7 +228,7 @@ fn train(
         progress.steps(before + 1000 - done);
         done = before + 1000;
         let aside = epoch.aside_rmse.map_or(String::new(), |rmse| format!(", validation RMSE {rmse:.2}"));
-        progress.note(&format!(
+        output::note(&format!(
             "{what}: epoch {} of {n_epochs}, {:.0} s, training RMSE {:.2}{aside}",
             epoch.number,
             started.elapsed().as_secs_f64(),

@@ -20,7 +20,8 @@ use crate::cli::backbone_source::{BackboneArgs, read_backbone};
 use crate::cli::drawn_pictures::{drawn_pictures, see_all};
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::method_predictions::{Comparison, MethodPredictions};
-use crate::cli::output::{self, Progress};
+use crate::cli::output;
+use crate::cli::progress::Progress;
 use shagreen_studio::file;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
@@ -92,7 +93,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         library.name,
         library.axis_names().join(" and ")
     );
+    let progress = Progress::endless("computing the features of the library's pictures");
     let textures = pictured(&library, backbone.as_ref())?;
+    progress.finish();
     let kept = args.state.as_ref().map(|folder| folder.join(format!("drawn-{}.safetensors", args.seed)));
     let drawn = drawn_pictures(
         args.drawn as usize,
@@ -196,9 +199,14 @@ fn teach(
             true
         })
     };
-    let of_all = if args.out.is_some() || args.drawn_only { Some(learn(None)?) } else { None };
+    let of_all = if args.out.is_some() || args.drawn_only {
+        let _progress = Progress::endless("training on all pictures");
+        Some(learn(None)?)
+    } else {
+        None
+    };
     let n_judged = if args.unjudged { 0 } else { known.len() };
-    let progress = Progress::new("textures predicted", n_judged);
+    let progress = Progress::new("training without each texture", n_judged);
     let mut predicted = Vec::with_capacity(n_judged);
     for (index, left_out) in known.iter().enumerate().take(n_judged) {
         let estimates = match &of_all {

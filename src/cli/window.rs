@@ -4,14 +4,16 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::bail;
-use directories::ProjectDirs;
+use directories::{BaseDirs, ProjectDirs};
 use serde_json::json;
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_studio::open::{Opened, is_other_kind, open};
+use shagreen_studio::permitted_libraries::{OutsideLibrary, Permitted};
 use shagreen_studio::project::new_project;
 
 use crate::cli::model_folder::model_folder;
 use crate::cli::output::{self, Printed};
+use crate::cli::own_folder::own_folder;
 use shagreen_studio::library::{built_in, load};
 
 /// Function that opens the window and returns its frame times once it is closed.
@@ -37,7 +39,7 @@ pub(crate) struct WindowRequest {
     pub(crate) project: Project,
     /// File of the project with its SHA-256; `None` for a new one.
     pub(crate) file: Option<(PathBuf, String)>,
-    /// File to take at once that is neither a project nor a library.
+    /// File to take at once: neither a project nor a library, or a project about which the window asks a question first.
     pub(crate) take: Option<PathBuf>,
     /// Id of the output to open; `None` for the default.
     pub(crate) output: Option<String>,
@@ -58,6 +60,10 @@ pub(crate) struct UserFolders {
     pub(crate) settings: Option<PathBuf>,
     /// Folder of downloaded networks.
     pub(crate) models: Option<PathBuf>,
+    /// Folder of all files that Shagreen keeps for the user; libraries in it are read without a question.
+    pub(crate) own: Option<PathBuf>,
+    /// Folder in which the desktop keeps its settings.
+    pub(crate) desktop: Option<PathBuf>,
 }
 
 /// Measured times of a window, in seconds.
@@ -83,9 +89,12 @@ pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> any
              the commands work without one: see shagreen --help"
         );
     }
-    let take = args.file.as_deref().filter(|file| is_other_kind(file) && file.is_file());
-    let take = take.map(std::path::absolute).transpose()?;
-    let (project, file) = if take.is_some() { (new_project(), None) } else { project(args.file.as_deref())? };
+    let named = args.file.as_deref();
+    let is_other = named.is_some_and(|file| is_other_kind(file) && file.is_file());
+    let opened = if is_other { None } else { opened(named)? };
+    // What is not opened here, the window takes.
+    let take = named.filter(|_| opened.is_none()).map(std::path::absolute).transpose()?;
+    let (project, file) = opened.unwrap_or_else(|| (new_project(), None));
     // A measurement writes no user files.
     let folders = if args.measure_frames.is_some() { UserFolders::default() } else { user_folders() };
     let times = open_window(WindowRequest {
@@ -103,8 +112,20 @@ pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> any
     Ok(())
 }
 
+/// Project to show, with its file and the SHA-256 of the file.
+type Shown = (Project, Option<(PathBuf, String)>);
+
+/// As [`project`]; `None` for a project with a library about which the window must ask.
+fn opened(file: Option<&Path>) -> anyhow::Result<Option<Shown>> {
+    match project(file) {
+        Ok(opened) => Ok(Some(opened)),
+        Err(error) if error.is::<OutsideLibrary>() => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
 /// Returns the project of a file, or a new project with the library of a file; warnings are printed.
-fn project(file: Option<&Path>) -> anyhow::Result<(Project, Option<(PathBuf, String)>)> {
+fn project(file: Option<&Path>) -> anyhow::Result<Shown> {
     let on = |library: ProjectLibrary| Project { library, ..new_project() };
     let Some(path) = file else { return Ok((new_project(), None)) };
     if let Some(built_in) = built_in(path) {
@@ -114,7 +135,7 @@ fn project(file: Option<&Path>) -> anyhow::Result<(Project, Option<(PathBuf, Str
         let merged = load(Some(path), &Printed)?;
         return Ok((on(ProjectLibrary::Inside(merged.into())), None));
     }
-    match open(path)? {
+    match open(path, &Permitted::Only(own_folder().into_iter().collect()))? {
         Opened::Project(opened) => {
             warn_of(&opened.warnings, path);
             // An absolute path is valid from every working directory.
@@ -140,6 +161,8 @@ fn user_folders() -> UserFolders {
         recovery: Some(state.join("recovery")),
         settings: Some(folders.config_dir().join("settings.json")),
         models: model_folder().ok().map(|models| models.path().to_owned()),
+        own: own_folder(),
+        desktop: BaseDirs::new().map(|folders| folders.config_dir().to_owned()),
     }
 }
 

@@ -24,11 +24,11 @@ const NOT_RUN: [(&str, &str); 18] = [
     ("--diffusion", "needs a downloaded network"),
     ("--photo", "needs a network or a photo of the user"),
     ("train ", "takes minutes to hours"),
-    ("--model mine", "needs a trained model"),
+    ("--model strokes.safetensors", "needs a trained model"),
     ("--blend all", "takes minutes"),
     ("--figures plots", "takes as long as the command before it"),
     ("evaluate codec", "takes a minute"),
-    ("shagreen mine.json", "opens the window"),
+    ("shagreen materials.json", "opens the window"),
     ("shagreen mine.shagreen", "opens the window"),
 ];
 /// Pages whose commands take models that may not be distributed.
@@ -70,8 +70,8 @@ fn recording(of: &Bench, name: &str, separator: &str) {
 fn give(bench: &Bench, page: &str, lines: &[String]) {
     let takes = |name: &str| lines.iter().any(|line| line.contains(name));
     let is_made = |name: &str| lines.iter().any(|line| line.contains(&format!("--out {name}")));
-    if takes("mine.json") && !is_made("mine.json") {
-        bench.write("mine.json", starter_bytes());
+    if takes("recorded.json") && !is_made("recorded.json") {
+        bench.write("recorded.json", starter_bytes());
     }
     if takes("recording.csv") {
         let rows = (0..4000).map(|i| {
@@ -90,8 +90,7 @@ fn give(bench: &Bench, page: &str, lines: &[String]) {
         recording(bench, "a.csv", ";");
         recording(bench, "b.csv", ";");
     }
-    let is_first_made = lines.first().is_some_and(|line| line.starts_with("printf"));
-    if takes("--stroke stroke.csv") && !takes("psd") && !is_first_made {
+    if takes("--stroke stroke.csv") {
         bench.write("stroke.csv", "t_s,speed,force\n0,0,0.5\n1,150,1\n2,0,0.5\n");
     }
     if takes("strokes/") {
@@ -106,8 +105,8 @@ fn give(bench: &Bench, page: &str, lines: &[String]) {
         let few: Vec<&str> = text.split("[[material]]").take(3).collect();
         bench.write("materials.toml", few.join("[[material]]"));
     }
-    if takes("places.csv") {
-        let said = bench.run("library places --out places.csv");
+    if takes("positions.csv") {
+        let said = bench.run("library places --out positions.csv");
         assert_eq!(said.code, 0, "{said:?}");
     }
     if takes("texture.wav") && !takes("-o texture.wav") {
@@ -121,7 +120,7 @@ fn give(bench: &Bench, page: &str, lines: &[String]) {
     if takes("--texture recording") {
         let mut library = starter_library().unwrap();
         "recording".clone_into(&mut library.textures[0].id);
-        bench.write("mine.json", shagreen_formats::library::write_library(&library));
+        bench.write("recorded.json", shagreen_formats::library::write_library(&library));
     }
 }
 

@@ -291,6 +291,25 @@ fn what_is_odd_in_a_recording_is_said() {
 }
 
 #[test]
+fn three_axes_are_ordinary() {
+    let bench = Bench::new();
+    let mut text = "t_s,ax [m/s^2],ay [m/s^2],az [m/s^2],v [mm/s],F [N]\n".to_owned();
+    for i in 0..6000 {
+        let wave = (0.9 * f64::from(i)).sin() + 0.5 * (0.31 * f64::from(i * i % 977)).sin();
+        let (t, b, c) = (f64::from(i) / 1000.0, 0.5 * wave, 0.2 * wave);
+        writeln!(text, "{t:.4},{wave:.4},{b:.4},{c:.4},100,1").unwrap();
+    }
+    bench.write("axes.csv", text);
+    let said = bench.run("import recording axes.csv --out axes.json --json");
+    assert_eq!(said.code, 0, "{said:?}");
+    let done: Value = serde_json::from_str(&said.stdout).unwrap();
+    assert!(done["notes"].to_string().contains("axes combined"), "{done}");
+    assert!(!done["warnings"].to_string().contains("axes combined"), "{done}");
+    let is_note = |line: &str| line.starts_with("note: ") && line.contains("axes combined");
+    assert!(said.stderr.lines().any(is_note), "{}", said.stderr);
+}
+
+#[test]
 fn a_folder_is_the_recordings_in_it() {
     let bench = Bench::new();
     std::fs::create_dir(bench.path("strokes")).unwrap();

@@ -13,6 +13,7 @@ mod disk_faults;
 mod support;
 
 mod author;
+mod bad_files;
 mod devices;
 mod errors;
 mod evaluate;
@@ -24,6 +25,7 @@ mod import;
 mod learn;
 mod library;
 mod play;
+mod progress;
 mod project;
 mod render;
 mod signals;

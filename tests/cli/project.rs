@@ -63,3 +63,35 @@ fn what_is_no_project_or_not_in_it_is_said() {
     bench.fails(&render("--project ways.shagreen --library library.json --at 5,5"), 2, &["--library"]);
     assert!(!bench.path("out.wav").exists());
 }
+
+/// A command can ask no question, so a library outside the folder of its project gets a warning. One in the folder of
+/// Shagreen needs none, and one on another computer is never asked for.
+#[test]
+fn where_the_library_of_a_project_lies_decides() {
+    let bench = Bench::new();
+    for folder in ["elsewhere", "near", "data/shagreen"] {
+        bench.write(&format!("{folder}/mine.json"), shagreen_formats::starter::starter_bytes());
+    }
+    bench.json("project new -o near/new.shagreen");
+    let begun = std::fs::read(bench.path("near/new.shagreen")).unwrap();
+    let show = |library: &str| {
+        let mut wire: serde_json::Value = serde_json::from_slice(&begun).unwrap();
+        wire["library"] = json!({"file": library});
+        bench.write("near/a.shagreen", wire.to_string());
+        bench.run("project show near/a.shagreen")
+    };
+    let warning = "outside the folder of the project";
+    for (library, is_warned) in [
+        ("mine.json", false),
+        ("../near/mine.json", false),
+        ("../data/shagreen/mine.json", false),
+        ("../elsewhere/mine.json", true),
+    ] {
+        let said = show(library);
+        assert_eq!((said.code, said.stderr.contains(warning)), (0, is_warned), "{library}: {}", said.stderr);
+    }
+    for library in ["//server/share/mine.json", r"\\server\share\mine.json"] {
+        let said = show(library);
+        assert!(said.code == 1 && said.stderr.contains("on another computer"), "{library}: {}", said.stderr);
+    }
+}

@@ -2,8 +2,10 @@
 
 use crate::support::strokes::{self, Sample, rank_correlation, windows};
 use crate::support::{Bench, rms, shared_data};
+use serde_json::{Value, json};
 use shagreen_core::dsp::spectrum::welch;
 use shagreen_core::units::Hertz;
+use shagreen_formats::starter::starter_bytes;
 
 /// Checks that there is a signal while the tip moves on the surface and none while it is lifted, and that its level
 /// rises with speed.
@@ -66,8 +68,7 @@ fn the_sidecar_says_what_the_numbers_are() {
     let bench = Bench::new();
     bench.write("stroke.svc", strokes::synthetic());
     bench.json("render --at 30,70 --stroke stroke.svc --seed 9 --blend power -o out.wav");
-    let sidecar: serde_json::Value =
-        serde_json::from_slice(&std::fs::read(bench.path("out.json")).unwrap()).unwrap();
+    let sidecar: Value = serde_json::from_slice(&std::fs::read(bench.path("out.json")).unwrap()).unwrap();
     assert_eq!((&sidecar["units"], &sidecar["full_scale"]), (&"m/s^2".into(), &1.0.into()));
     assert_eq!((&sidecar["seed"], &sidecar["blend"]), (&9.into(), &"power".into()));
     assert_eq!((&sidecar["stroke"], &sidecar["label_source"]), (&"stroke.svc".into(), &"physical".into()));
@@ -93,9 +94,12 @@ fn the_sidecar_says_what_the_numbers_are() {
 #[test]
 fn the_mapping_of_a_stroke_can_be_changed() {
     let bench = Bench::new();
+    write_cork(&bench, "still.json", None);
     bench.write("stroke.svc", strokes::synthetic());
     let level = |options: &str| {
-        bench.json(&format!("render --texture cork --stroke stroke.svc {options} -o out.wav"))["rms"]
+        bench.json(&format!(
+            "render --library still.json --texture cork --stroke stroke.svc {options} -o out.wav"
+        ))["rms"]
             .as_f64()
             .unwrap()
     };
@@ -114,13 +118,16 @@ fn the_mapping_of_a_stroke_can_be_changed() {
 #[test]
 fn strokes_can_be_tables() {
     let bench = Bench::new();
+    write_cork(&bench, "still.json", None);
     bench.write("steady.csv", "t_s,speed,force\n0,100,1\n4,100,1\n");
     bench.write(
         "pen.csv",
         (0..400).fold("t_ms;x;y;force\n".to_owned(), |t, i| t + &format!("{};{};0;1\n", i * 10, i)),
     );
-    let level =
-        |name: &str| bench.json(&format!("render --texture cork --stroke {name} -o out.wav"))["rms"].clone();
+    let level = |name: &str| {
+        bench.json(&format!("render --library still.json --texture cork --stroke {name} -o out.wav"))["rms"]
+            .clone()
+    };
     let steady =
         bench.json("render --texture cork --speed 100 --force 1 --seconds 4 -o out.wav")["rms"].clone();
     assert_eq!(level("steady.csv"), steady);
@@ -129,21 +136,24 @@ fn strokes_can_be_tables() {
     assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
 }
 
-/// Writes a library whose cork has a tap transient.
-fn write_tapped_cork(bench: &Bench) {
-    let starter = include_str!("../../assets/starter/starter.json");
-    let tap = "\"tap\": {\"frequency_hz\": 180, \"decay_per_s\": 90, \"amplitude_mps2\": 6}, ";
-    let cork = starter.find("\"id\": \"cork\"").unwrap();
-    let (before, after) = starter.split_at(cork);
-    let tapped = format!("{before}{tap}{after}").replacen("\"version\": \"1.0\"", "\"version\": \"1.1\"", 1);
-    bench.write("tapped.json", tapped);
+/// Writes the starter library with another tap transient of cork, or without one.
+fn write_cork(bench: &Bench, name: &str, tap: Option<Value>) {
+    let mut library: Value = serde_json::from_slice(starter_bytes()).unwrap();
+    let cork = library["textures"].as_array_mut().unwrap().iter_mut().find(|t| t["id"] == "cork").unwrap();
+    match tap {
+        Some(tap) => cork["tap"] = tap,
+        None => drop(cork.as_object_mut().unwrap().remove("tap")),
+    }
+    bench.write(name, library.to_string());
 }
 
 /// As in playback, a stroke has a tap transient at each contact, and a steady contact has none.
 #[test]
 fn landings_in_a_stroke_are_rendered() {
     let bench = Bench::new();
-    write_tapped_cork(&bench);
+    let tap = json!({"frequency_hz": 180, "decay_per_s": 90, "amplitude_mps2": 6});
+    write_cork(&bench, "tapped.json", Some(tap));
+    write_cork(&bench, "still.json", None);
     // On the surface from 0.5 to 1.2 s, and from 1.6 s on.
     let down = |i: u32| (500..1200).contains(&i) || i >= 1600;
     let rows = (0..2000).map(|i| format!("{},{},{}\n", f64::from(i) / 1e3, 100, u8::from(down(i))));
@@ -154,7 +164,10 @@ fn landings_in_a_stroke_are_rendered() {
     };
     for rate_hz in [1000_u32, 8000] {
         let stroke = format!("--stroke stroke.csv --rate {rate_hz}");
-        let (with, without) = (rendered(&format!("{stroke} --library tapped.json")), rendered(&stroke));
+        let (with, without) = (
+            rendered(&format!("{stroke} --library tapped.json")),
+            rendered(&format!("{stroke} --library still.json")),
+        );
         let taps: Vec<f64> = with.iter().zip(&without).map(|(a, b)| a - b).collect();
         let rate = f64::from(rate_hz);
         let peak = |from: f64, to: f64| {
@@ -243,7 +256,20 @@ fn outside_the_textures_the_nearest_point_is_taken_and_said() {
     let bench = Bench::new();
     let said = bench.run("render --at 100,100 --speed 100 --force 1 --seconds 0.1 -o out.wav --json");
     assert_eq!(said.code, 0);
-    let result: serde_json::Value = serde_json::from_str(&said.stdout).unwrap();
+    let result: Value = serde_json::from_str(&said.stdout).unwrap();
     assert_eq!(result["clamped"], true);
     assert!(said.stderr.contains("warning: 100.0, 100.0 lies outside"), "{}", said.stderr);
+}
+
+#[test]
+fn what_the_signal_cannot_store_is_noted() {
+    let bench = Bench::new();
+    let render = "render --texture cork --speed 100 --force 1 --seconds 1 -o cork.wav";
+    let said = bench.run(render);
+    let note = "note: not stored in the file: all tip speeds and normal forces except those of this stroke";
+    assert!(said.code == 0 && said.stderr.lines().any(|line| line == note), "{}", said.stderr);
+    let lost = bench.json(render)["lost"].as_array().unwrap().len();
+    assert_eq!(said.stderr.matches("not stored in the file").count(), lost);
+    let help = bench.run("export --help").stdout;
+    assert!(help.contains("hatt") && help.contains("shagreen render"), "{help}");
 }

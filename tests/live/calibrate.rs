@@ -354,5 +354,5 @@ fn the_built_in_actuators_are_listed_and_shown() {
     bench.fails("actuator show mm1c --load-g 40", 1, &["mm1c", "calibrate it"]);
     bench.fails("actuator show nothing", 1, &["neither a built-in actuator nor a file", "haptuator-mark-ii"]);
     bench.write("broken.toml", "format = \"shagreen-actuator\"\nversion = \"1.0\"\nid = \"x\"\nname = \"x\"\nsource = \"x\"\nloud = 3\n");
-    bench.fails("actuator show broken.toml", 1, &["unknown field `loud`", "line 6", "broken.toml"]);
+    bench.fails("actuator show broken.toml", 1, &["the field `loud` is unknown", "line 6", "broken.toml"]);
 }

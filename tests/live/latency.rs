@@ -31,6 +31,27 @@ fn onsets_that_were_missed_are_counted() {
 }
 
 #[test]
+fn the_monitor_of_an_output_is_listed_and_recorded() {
+    if !have(SERVER) {
+        return;
+    }
+    let server = SoundServer::new();
+    let listed = shagreen(&server, &["devices"]);
+    let inputs = listed["inputs"].as_array().unwrap();
+    let monitor = inputs.iter().find(|input| input["monitor_of"] == "pulse:ci").unwrap();
+    assert_eq!(monitor["id"], "pulse:ci.monitor");
+    assert!(monitor["name"].as_str().unwrap().ends_with(" (monitor of pulse:ci)"), "{monitor}");
+    let words = ["latency", "--input", "pulse:ci.monitor", "--output", "pulse:ci", "--strokes", "3"];
+    let told = shagreen(&server, &words);
+    for kind in ["taps", "strokes"] {
+        let (n, missed) = (told[kind]["n"].as_u64().unwrap(), told[kind]["missed"].as_u64().unwrap());
+        assert!(n >= 2 && n + missed == 3, "{kind}: {told}");
+        let median_ms = told[kind]["median_ms"].as_f64().unwrap();
+        assert!((0.0..200.0).contains(&median_ms), "{kind}: {told}");
+    }
+}
+
+#[test]
 fn an_input_that_does_not_hear_the_output_is_an_error() {
     if !have(SERVER) {
         return;

@@ -57,7 +57,11 @@ fn main() {
         harness.step();
         std::thread::sleep(Duration::from_millis(20));
     }
-    println!("{n_textures} textures, ready after {:.1} s", start.elapsed().as_secs_f64());
+    println!(
+        "simulated library of {n_textures} textures (copies of the starter textures at random positions), ready \
+         after {:.1} s",
+        start.elapsed().as_secs_f64()
+    );
     harness.get_by_label(strings::HAND_START).click();
     harness.run_steps(30);
     std::thread::sleep(Duration::from_secs(1));

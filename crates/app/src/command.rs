@@ -1,5 +1,6 @@
 //! Commands of the user and their keyboard shortcuts.
 
+pub mod clipboard;
 pub mod prompt;
 pub mod signals;
 pub mod stroke;
@@ -8,11 +9,13 @@ use std::path::PathBuf;
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
+use crate::command::clipboard::ClipboardCommand;
 use crate::command::prompt::PromptCommand;
 use crate::state::leave::Leave;
 use crate::state::source::Source;
 use shagreen_core::space::heat_map::Quantity;
 use shagreen_formats::gallery::GalleryProject;
+use shagreen_studio::export::WAV;
 
 use crate::command::signals::SignalsCommand;
 use crate::command::stroke::StrokeCommand;
@@ -61,6 +64,8 @@ pub enum Command {
     ToggleDragStroke,
     /// Turns the audition of the texture under the pointer on or off.
     ToggleHover,
+    /// Turns animations off or on.
+    ToggleMotion,
     /// Shows the details of the texture with this id.
     OpenTexture(String),
     /// Shows the details of the texture with this id, with the keyboard focus on its name.
@@ -114,6 +119,10 @@ pub enum Command {
     OpenGuide,
     /// Starts the tour.
     BeginTour,
+    /// Selects the authored texture with this key and puts the keyboard focus on its name.
+    RenameAuthored(u32),
+    /// Command about the clipboard.
+    Clipboard(ClipboardCommand),
     /// Command of the Signals workspace.
     Signals(SignalsCommand),
     /// Command about prompts and photos.
@@ -137,6 +146,8 @@ pub enum FileCommand {
     AskWhatToOpen,
     /// Opens a project or a library.
     Open(PathBuf),
+    /// Answers the question about a library outside the folder of its project.
+    AnswerLibrary(LibraryAnswer),
     /// Saves the project to its file.
     Save,
     /// Sets the template of new projects; `None` removes it.
@@ -145,10 +156,8 @@ pub enum FileCommand {
     SaveAs,
     /// Saves the project to this file, which becomes its file.
     SaveTo(PathBuf),
-    /// Exports the audible texture as a WAV file.
-    ExportSignal,
-    /// Exports the audible texture in the format with this id.
-    ExportTexture(&'static str),
+    /// Opens the export sheet with the format of this id.
+    Export(&'static str),
     /// Embeds the library in the project.
     KeepLibraryInside,
     /// Closes the program.
@@ -165,6 +174,17 @@ pub enum FileCommand {
     Recover(usize),
     /// Deletes a recovered project, by its index in the list.
     Discard(usize),
+}
+
+/// Answer to the question whether a project may read a library outside its folder.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LibraryAnswer {
+    /// The project may read it.
+    Read,
+    /// This library takes its place.
+    Instead(PathBuf),
+    /// A copy of the project opens on the starter library.
+    Without,
 }
 
 /// Label and shortcut of a command.
@@ -210,7 +230,7 @@ const FILES_AND_EDITS: [Command; 12] = [
     Command::File(FileCommand::OpenGallery),
     Command::File(FileCommand::Save),
     Command::File(FileCommand::SaveAs),
-    Command::File(FileCommand::ExportSignal),
+    Command::File(FileCommand::Export(WAV.id)),
     Command::File(FileCommand::KeepLibraryInside),
     Command::File(FileCommand::Quit),
     Command::OpenImport,
@@ -219,10 +239,14 @@ const FILES_AND_EDITS: [Command; 12] = [
     Command::Redo,
 ];
 
-const OTHERS: [Command; 21] = [
+const OTHERS: [Command; 25] = [
+    Command::Clipboard(ClipboardCommand::Copy(None)),
+    Command::Clipboard(ClipboardCommand::Cut(None)),
+    Command::Clipboard(ClipboardCommand::Paste),
     Command::DuplicateTexture,
     Command::ToggleDragStroke,
     Command::ToggleHover,
+    Command::ToggleMotion,
     Command::OpenPalette,
     Command::TogglePathTool,
     Command::KeepPath,
@@ -254,7 +278,7 @@ impl Command {
             Self::File(FileCommand::SaveAs) => {
                 Entry::new("Save the project under another name").command_shift(Key::S)
             }
-            Self::File(FileCommand::ExportSignal) => Entry::new("Export the texture as WAV"),
+            Self::File(FileCommand::Export(_)) => Entry::new("Export the texture"),
             Self::File(FileCommand::KeepLibraryInside) => Entry::new("Embed the library in the project"),
             Self::File(FileCommand::Quit) => Entry::new("Quit").command(Key::Q),
             Self::OpenImport => Entry::new("Import recordings and models"),
@@ -283,9 +307,19 @@ impl Command {
             Self::TakeOverOutput => Entry::new("Take over the output from another Shagreen"),
             Self::ToggleTheme => Entry::new("Switch between dark and light theme").command(Key::T),
             Self::OpenDevices => Entry::new("Devices").command_shift(Key::D),
+            Self::Clipboard(ClipboardCommand::Copy(_)) => {
+                Entry::new("Copy the authored texture").command(Key::C)
+            }
+            Self::Clipboard(ClipboardCommand::Cut(_)) => {
+                Entry::new("Cut the authored texture").command(Key::X)
+            }
+            Self::Clipboard(ClipboardCommand::Paste) => {
+                Entry::new("Paste an authored texture").command(Key::V)
+            }
             Self::DuplicateTexture => Entry::new("Duplicate the authored texture").command(Key::D),
             Self::ToggleDragStroke => Entry::new("Play or be silent while the point is dragged"),
             Self::ToggleHover => Entry::new("Play textures under the pointer, or do not"),
+            Self::ToggleMotion => Entry::new("Turn animations off or on"),
             Self::OpenGuide => Entry::new("Open the guide"),
             Self::OpenShortcuts => Entry::new("Keyboard shortcuts").key(Key::F1),
             Self::BeginTour => Entry::new("Start the tour"),
@@ -305,10 +339,15 @@ impl Command {
 }
 
 /// Commands whose shortcuts were pressed in this frame. Shortcuts without modifiers apply only if nothing or `canvas`
-/// has the keyboard focus, because buttons and text fields use those keys themselves.
+/// has the keyboard focus, because buttons and text fields use those keys themselves. They do not apply in the frame
+/// after a text field lost the focus either: the key was still meant for the field.
 pub fn pressed(ctx: &egui::Context, canvas: egui::Id) -> Vec<Command> {
     let focused = ctx.memory(egui::Memory::focused);
-    let plain_keys_are_ours = focused.is_none_or(|f| f == canvas);
+    let is_writing = ctx.text_edit_focused();
+    let was_writing_id = egui::Id::unique("a text field had the focus");
+    let was_writing =
+        ctx.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default(was_writing_id), is_writing));
+    let plain_keys_are_ours = focused.is_none_or(|f| f == canvas) && !was_writing;
     // The shortcut of redo contains that of undo, and that of "save as" contains that of "save". Longer ones come
     // first.
     let has_shift = |c: &Command| c.shortcut().is_some_and(|s| s.modifiers.shift);
@@ -317,7 +356,9 @@ pub fn pressed(ctx: &egui::Context, canvas: egui::Id) -> Vec<Command> {
     commands.retain(|command| {
         let Some(shortcut) = command.shortcut() else { return false };
         let plain = shortcut.modifiers == Modifiers::NONE;
-        (plain_keys_are_ours || !plain) && ctx.input_mut(|i| i.consume_shortcut(&shortcut))
+        let is_event = matches!(command, Command::Clipboard(_));
+        !is_event && (plain_keys_are_ours || !plain) && ctx.input_mut(|i| i.consume_shortcut(&shortcut))
     });
+    commands.extend(clipboard::pressed(ctx).into_iter().map(Command::Clipboard));
     commands
 }

@@ -36,6 +36,9 @@ pub mod strings;
 pub mod window;
 pub mod workspace;
 
+/// Side of the icon of the window in pixels. The system scales it for its lists.
+const ICON_SIDE: usize = 128;
+
 /// Options of a run.
 #[derive(Clone, Debug)]
 pub struct Start {
@@ -55,6 +58,7 @@ pub struct Start {
 pub fn run(start: Start) -> anyhow::Result<WindowTimes> {
     let viewport = egui::ViewportBuilder::default()
         .with_title(strings::APP)
+        .with_icon(look::icon::icon(ICON_SIDE))
         .with_app_id("shagreen")
         .with_inner_size([1280.0, 720.0])
         .with_min_inner_size([960.0, 600.0]);

@@ -5,10 +5,13 @@
 pub mod axes;
 pub(crate) mod chart_ui;
 pub(crate) mod drag;
+pub mod icon;
 pub(crate) mod label_places;
 pub(crate) mod map_plot;
+pub(crate) mod motion;
 pub(crate) mod plot;
 pub(crate) mod scale;
 pub(crate) mod sheet_frame;
 pub(crate) mod spectrum_plot;
 pub mod theme;
+pub(crate) mod tooltips;

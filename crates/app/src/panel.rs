@@ -1,6 +1,8 @@
 //! Read-only state that panels draw. Panels request changes through commands.
 
-use shagreen_formats::project::Project;
+use std::sync::Arc;
+
+use shagreen_formats::project::{AuthoredTexture, Project};
 
 use crate::session::Session;
 use crate::state::compare::Compare;
@@ -45,6 +47,18 @@ impl<'a> Panel<'a> {
             Some(alone) => self.session.textures()[alone].name.clone(),
             None => heard.map_or(&self.project.texture().name, |texture| &texture.name).clone(),
         }
+    }
+
+    /// Authored texture that the inspector shows: the one that an open comparison plays, or else the selected one.
+    pub fn inspected(&self) -> &'a AuthoredTexture {
+        let compared = self.compare.heard_key().filter(|_| !self.compare.is_hidden());
+        let heard = self.project.authored.iter().find(|texture| Some(texture.key) == compared);
+        heard.map_or(self.project.texture(), Arc::as_ref)
+    }
+
+    /// Whether the texture that the inspector shows is the selected one, to which edits apply.
+    pub fn can_edit(&self) -> bool {
+        self.inspected().key == self.project.texture().key
     }
 
     /// Whether a texture of the list is pinned: the field passes through it exactly at its position.

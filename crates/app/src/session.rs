@@ -3,6 +3,7 @@
 //! Undo does not apply here: this state follows from the project, the library, and the input of the user.
 
 mod audible;
+pub(crate) mod authored_sources;
 mod authored_state;
 mod devices;
 mod follow;

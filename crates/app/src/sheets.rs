@@ -2,11 +2,14 @@
 
 pub(crate) mod conflict_ui;
 pub mod devices;
+pub(crate) mod export;
 pub(crate) mod gallery_sheet;
 pub(crate) mod guide_sheet;
 pub mod import;
 pub(crate) mod open_sheet;
+pub(crate) mod outside_library;
 pub(crate) mod palette;
+pub(crate) mod path_field;
 pub(crate) mod recovered_ui;
 pub mod save;
 pub(crate) mod shortcuts_ui;
@@ -27,11 +30,13 @@ use crate::look::theme::{RADIUS, tokens};
 use crate::panel::Panel;
 use crate::sheets::conflict_ui::conflict_ui;
 use crate::sheets::devices::DevicesSheet;
+use crate::sheets::export::ExportSheet;
 use crate::sheets::gallery_sheet::GallerySheet;
 use crate::sheets::guide_sheet::GuideSheet;
 use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::sheet::ImportSheet;
 use crate::sheets::open_sheet::OpenSheet;
+use crate::sheets::outside_library::OutsideLibrarySheet;
 use crate::sheets::palette::PaletteSheet;
 use crate::sheets::recovered_ui::recovered_ui;
 use crate::sheets::save::SaveSheet;
@@ -53,8 +58,10 @@ pub(crate) enum Sheet {
     Closed,
     /// Imports files as textures.
     Import(Box<ImportSheet>),
-    /// Saves a library, figure, stroke, signal, texture or project.
+    /// Saves a library, figure, stroke or project.
     Save(SaveSheet),
+    /// Exports textures and signals for other programs.
+    Export(Box<ExportSheet>),
     /// Settings of the output, its actuator and the pen.
     Devices(Box<DevicesSheet>),
     /// Opens a project, library, stroke or signal.
@@ -72,6 +79,8 @@ pub(crate) enum Sheet {
     Leaving(Leave),
     /// Asks before saving over a project file that was changed by another window or program.
     Conflict(Conflict),
+    /// Asks whether a project may read a library outside its folder.
+    OutsideLibrary(OutsideLibrarySheet),
     /// Offers projects that a crashed program left behind.
     Recovered(Vec<Leftover>),
 }
@@ -132,6 +141,7 @@ impl Sheet {
                 sheet.show(ctx, around)
             }
             Self::Save(sheet) => sheet.show(ctx, session.library()),
+            Self::Export(sheet) => sheet.show(ctx, panel),
             Self::Devices(sheet) => sheet.show(ctx, session),
             Self::Open(sheet) => sheet.show(ctx, document.is_opening()),
             Self::Gallery(sheet) => sheet.show(ctx),
@@ -141,9 +151,15 @@ impl Sheet {
             Self::Palette(sheet) => sheet.show(ctx),
             Self::Leaving(leave) => leaving_ui(ctx, *leave, &document.name(), document.is_changed()),
             Self::Conflict(conflict) => conflict_ui(ctx, conflict, &document.name()),
+            Self::OutsideLibrary(sheet) => sheet.show(ctx, document.is_opening()),
             Self::Recovered(leftovers) => recovered_ui(ctx, leftovers),
         };
-        if matches!(self, Self::Save(sheet) if sheet.is_saving()) {
+        let is_saving = match self {
+            Self::Save(sheet) => sheet.is_saving(),
+            Self::Export(sheet) => sheet.is_saving(),
+            _ => false,
+        };
+        if is_saving {
             // The sheet stays until the outcome has been shown.
             return commands;
         }

@@ -3,14 +3,18 @@
 //!
 //! In: edits, files and device reports. Out: values that panels read.
 
+pub(crate) mod audible_texture;
 pub(crate) mod background;
 pub mod bench_signal;
+pub mod clipboard;
 pub mod compare;
 pub mod conflict;
+pub(crate) mod desktop_motion;
 pub mod document;
 pub mod edit;
 pub(crate) mod figure_file;
 pub mod files;
+pub(crate) mod gallery_pictures;
 pub mod heat_map;
 pub mod history;
 pub(crate) mod leave;
@@ -26,8 +30,6 @@ pub mod rig;
 pub(crate) mod rig_memory;
 pub mod scope_buffer;
 pub(crate) mod settings_file;
-pub(crate) mod signal_export;
 pub(crate) mod signal_file;
 pub(crate) mod source;
 pub(crate) mod stroke_file;
-pub(crate) mod texture_file;

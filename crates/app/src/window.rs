@@ -1,10 +1,15 @@
 //! The window: lays out the panels, executes commands and requests frames.
 
 mod author_page;
+mod clipboard;
 mod commands;
+mod exports;
 pub(crate) mod file_menu;
 mod files;
+mod focus_ring;
 mod gesture_counter;
+mod hints;
+mod outside_library;
 mod pages;
 mod preview;
 mod prompts;
@@ -17,7 +22,9 @@ mod strokes;
 mod title_bar;
 pub mod tour;
 
+use self::focus_ring::focus_ring_ui;
 use self::gesture_counter::GestureCounter;
+use self::hints::recall_hints;
 use self::rig::{SelectedOutput, open_as_left};
 pub use self::stopwatch::WindowTimes;
 
@@ -32,8 +39,10 @@ use crate::author::canvas::point_id;
 use crate::author::prompt::Prompts;
 use crate::build::page::BuildPage;
 use crate::command::{Command, FileCommand, pressed};
+use crate::look::motion::set_reduced;
 use crate::look::scale::Scale;
 use crate::look::theme::{install, tokens};
+use crate::look::tooltips::follow_drags;
 use crate::panel::Panel;
 use crate::session::{OutputChoice, Session};
 use crate::sheets::Sheet;
@@ -63,7 +72,8 @@ pub struct Begin {
     pub project: Project,
     /// File of the project, or `None` for an unsaved project.
     pub file: Option<DocumentFile>,
-    /// File to open or import at the start, neither a project nor a library: a recording, a model, a stroke or a photo.
+    /// File to open or import at the start: a recording, a model, a stroke, a photo, or a project about which a question
+    /// must be answered first.
     pub take: Option<PathBuf>,
     /// Output to open.
     pub output: OutputChoice,
@@ -122,6 +132,8 @@ impl Window {
         open_as_left(&mut session, output, &files, ctx);
         session.follow(&project, None, ctx);
         let pictures = Pictures::new(project.library.clone(), &project.joined, session.textures());
+        recall_hints(&files.settings, ctx);
+        set_reduced(ctx, files.reduces_motion());
         let is_new_here = can_remember && !files.settings.has_seen_tour;
         let mut tour = Tour::default();
         if is_new_here {
@@ -220,6 +232,7 @@ impl Window {
         }
         self.pictures.collect(&ctx);
         self.gesture.follow(&ctx);
+        follow_drags(&ctx);
         self.session.update(self.pages.stage.pad.contact(&self.session));
         self.pages.collect(&ctx);
         self.collect_files(&ctx);
@@ -239,7 +252,7 @@ impl Window {
             commands.retain(|command| !matches!(command, Command::ToggleHand));
         }
         if !is_author {
-            commands.retain(|command| !matches!(command, Command::TogglePathTool));
+            commands.retain(|command| !matches!(command, Command::TogglePathTool | Command::Clipboard(_)));
         }
         if let Some(page) = self.pages.current() {
             commands = commands.into_iter().filter_map(|command| page.accept(command)).collect();
@@ -282,12 +295,14 @@ impl Window {
             self.files.settings.has_seen_tour = true;
         }
         self.follow_preview(&mut commands, &ctx);
+        focus_ring_ui(&ctx);
         for command in commands {
             self.carry_out(command, &ctx);
         }
         self.follow_project(&ctx);
         let (project, textures) = (&self.project, self.session.textures());
         self.pictures.follow(&project.library, &project.joined, textures);
+        self.remember_hints(&ctx);
         self.keep_scale(&ctx);
         self.keep_going(&ctx);
     }
@@ -322,10 +337,11 @@ impl Window {
     /// Updates the session to the project, the comparison and the selected signal.
     fn follow_project(&mut self, ctx: &egui::Context) {
         self.compare.follow(&self.project);
-        let heard = self.compared_texture();
+        let in_gallery = self.preview.gallery_texture();
         self.session.set_hidden(self.compare.is_hidden());
-        let is_bench = self.pages.workspace == Workspace::Signals;
+        let is_bench = self.pages.workspace == Workspace::Signals && in_gallery.is_none();
         self.session.feel(self.pages.signals.felt_signal().filter(|_| is_bench));
+        let heard = in_gallery.or_else(|| self.compared_texture());
         let project = self.preview.applied_to(&self.project, self.session.textures());
         self.session.follow(&project, heard.as_deref(), ctx);
     }

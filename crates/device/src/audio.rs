@@ -111,6 +111,8 @@ pub(crate) fn list() -> Vec<OutputInfo> {
 
 /// Devices of all available audio interfaces for one direction. None is opened.
 pub(crate) fn devices(way: Way) -> Vec<Listed> {
+    #[cfg(target_os = "linux")]
+    crate::alsa_messages::silence();
     let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Disconnected.
     hosts.flat_map(|host| devices_of(&host, way)).collect()
 }
@@ -169,6 +171,8 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
 
 /// Returns the device with exactly this id.
 pub(crate) fn find(way: Way, id: &str) -> Result<cpal::Device, DeviceError> {
+    #[cfg(target_os = "linux")]
+    crate::alsa_messages::silence();
     let what = way.name();
     let not_found = || {
         let message =

@@ -16,6 +16,10 @@ use triple_buffer::triple_buffer;
 
 use crate::audio::{Listed, Way, devices, explain, find};
 use crate::error::{DeviceError, DeviceErrorKind};
+#[cfg(target_os = "linux")]
+use crate::pulse::PREFIX;
+#[cfg(target_os = "linux")]
+use crate::pulse::record::{PulseInput, find_monitor, list_monitors};
 
 use self::sample_clock::{SampleClock, SampleTimes};
 
@@ -29,11 +33,21 @@ pub struct InputInfo {
     pub id: String,
     /// Display name.
     pub name: String,
+    /// Id of the output whose signal it records, for the monitor of an output.
+    pub monitor_of: Option<String>,
 }
 
-/// Audio inputs of this machine. None is opened.
+/// Audio inputs of this machine, those of devices first, then the monitors of outputs. None is opened.
 pub fn list_inputs() -> Vec<InputInfo> {
-    devices(Way::In).into_iter().map(|Listed { id, name, .. }| InputInfo { id, name }).collect()
+    let input = |Listed { id, name, .. }| InputInfo { id, name, monitor_of: None };
+    let inputs = devices(Way::In).into_iter().map(input);
+    #[cfg(target_os = "linux")]
+    let inputs = inputs.chain(list_monitors().into_iter().map(|monitor| InputInfo {
+        id: monitor.id,
+        name: format!("{} (monitor of {})", monitor.output_name, monitor.output_id),
+        monitor_of: Some(monitor.output_id),
+    }));
+    inputs.collect()
 }
 
 /// State that the callbacks report.
@@ -75,7 +89,9 @@ pub struct Recorder {
     opened: Instant,
     /// Times in seconds since `opened`.
     times: triple_buffer::Output<Option<SampleTimes>>,
-    _stream: cpal::Stream,
+    _device: Option<cpal::Stream>,
+    #[cfg(target_os = "linux")]
+    _monitor: Option<PulseInput>,
 }
 
 impl std::fmt::Debug for Recorder {
@@ -97,29 +113,24 @@ impl Recorder {
     /// - [`DeviceErrorKind::Unsupported`] if it has no such channel in a readable format.
     /// - [`DeviceErrorKind::Unavailable`] or [`DeviceErrorKind::Backend`] if the system fails.
     pub fn open(id: &str, channel_idx: usize, preferred_rate_hz: u32) -> Result<Self, DeviceError> {
+        #[cfg(target_os = "linux")]
+        if id.starts_with(PREFIX) {
+            return Self::open_monitor(id, channel_idx);
+        }
         let device = find(Way::In, id)?;
         let configs: Vec<SupportedStreamConfigRange> = device
             .supported_input_configs()
             .map_err(|error| explain(Way::In, id, "queried for its formats", &error))?
             .collect();
         let Some((range, rate_hz)) = choose(&configs, channel_idx, preferred_rate_hz) else {
-            let message = format!(
-                "the input `{id}` has no channel {} in a readable format; choose another channel, or an input that \
-                 `shagreen devices` lists",
-                channel_idx + 1
-            );
-            return Err(DeviceError::new(DeviceErrorKind::Unsupported, message));
+            return Err(no_channel(id, channel_idx));
         };
         let config = StreamConfig {
             channels: range.channels(),
             sample_rate: rate_hz,
             buffer_size: cpal::BufferSize::Default,
         };
-        let told = Arc::new(Told::default());
-        let opened = Instant::now();
-        let (producer, samples) = RingBuffer::new(WAITING);
-        let (times_in, times) = triple_buffer(&None);
-        let intake = Intake::new(config, channel_idx, opened, producer, Arc::clone(&told), times_in);
+        let (intake, reader) = Reader::new(config, channel_idx);
         let stream = match range.sample_format() {
             SampleFormat::F64 => build::<f64>(id, &device, intake),
             SampleFormat::I32 => build::<i32>(id, &device, intake),
@@ -130,7 +141,52 @@ impl Recorder {
             _ => build::<f32>(id, &device, intake),
         }?;
         stream.play().map_err(|error| explain(Way::In, id, "started", &error))?;
-        Ok(Self { id: id.to_owned(), rate_hz, samples, told, opened, times, _stream: stream })
+        let Reader { samples, told, opened, times } = reader;
+        Ok(Self {
+            id: id.to_owned(),
+            rate_hz,
+            samples,
+            told,
+            opened,
+            times,
+            _device: Some(stream),
+            #[cfg(target_os = "linux")]
+            _monitor: None,
+        })
+    }
+
+    /// Opens the monitor of an output at the rate of the output.
+    #[cfg(target_os = "linux")]
+    fn open_monitor(id: &str, channel_idx: usize) -> Result<Self, DeviceError> {
+        let monitor = find_monitor(id)?;
+        let (n_channels, rate_hz) = (monitor.channels(), monitor.rate_hz());
+        if channel_idx >= usize::from(n_channels) {
+            return Err(no_channel(id, channel_idx));
+        }
+        let config = StreamConfig {
+            channels: u16::from(n_channels),
+            sample_rate: rate_hz,
+            buffer_size: cpal::BufferSize::Default,
+        };
+        let (mut intake, reader) = Reader::new(config, channel_idx);
+        let Reader { samples, told, opened, times } = reader;
+        let samples_per_sec = f64::from(n_channels) * f64::from(rate_hz);
+        // The last sample of a block is recorded when the block is sent.
+        let take = move |block: &[f32]| {
+            intake.take(block, Duration::from_secs_f64(block.len() as f64 / samples_per_sec.max(1.0)));
+        };
+        let told_of_loss = Arc::clone(&told);
+        let input = monitor.start(take, move || told_of_loss.is_lost.store(true, Ordering::Relaxed))?;
+        Ok(Self {
+            id: id.to_owned(),
+            rate_hz,
+            samples,
+            told,
+            opened,
+            times,
+            _device: None,
+            _monitor: Some(input),
+        })
     }
 
     /// Sample rate, in Hz.
@@ -185,6 +241,35 @@ impl Recorder {
         }
         Ok(())
     }
+}
+
+/// Side of a recorder that the caller reads.
+struct Reader {
+    samples: Consumer<f32>,
+    told: Arc<Told>,
+    opened: Instant,
+    times: triple_buffer::Output<Option<SampleTimes>>,
+}
+
+impl Reader {
+    /// Returns both sides of a recorder.
+    fn new(config: StreamConfig, channel_idx: usize) -> (Intake, Self) {
+        let told = Arc::new(Told::default());
+        let opened = Instant::now();
+        let (producer, samples) = RingBuffer::new(WAITING);
+        let (times_in, times) = triple_buffer(&None);
+        let intake = Intake::new(config, channel_idx, opened, producer, Arc::clone(&told), times_in);
+        (intake, Self { samples, told, opened, times })
+    }
+}
+
+fn no_channel(id: &str, channel_idx: usize) -> DeviceError {
+    let message = format!(
+        "the input `{id}` has no channel {} in a readable format; choose another channel, or an input that \
+         `shagreen devices` lists",
+        channel_idx + 1
+    );
+    DeviceError::new(DeviceErrorKind::Unsupported, message)
 }
 
 /// Returns the stream format and the rate to open. The criteria, in order: a readable format with the wanted channel,
@@ -287,80 +372,4 @@ where
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{
-        Arc, DeviceErrorKind, Duration, ErrorKind, Instant, Intake, Ordering, Recorder, RingBuffer,
-        SampleFormat, StreamConfig, SupportedStreamConfigRange, Told, choose, triple_buffer,
-    };
-    use cpal::SupportedBufferSize;
-
-    fn range(channels: u16, low_hz: u32, high_hz: u32, format: SampleFormat) -> SupportedStreamConfigRange {
-        SupportedStreamConfigRange::new(channels, low_hz, high_hz, SupportedBufferSize::Unknown, format)
-    }
-
-    #[test]
-    fn the_channel_and_then_the_rate_decide() {
-        let configs = [
-            range(1, 8000, 48_000, SampleFormat::I16),
-            range(2, 8000, 96_000, SampleFormat::F32),
-            range(8, 44_100, 44_100, SampleFormat::I32),
-            range(2, 8000, 96_000, SampleFormat::DsdU8),
-        ];
-        let of = |channel, hz| choose(&configs, channel, hz).map(|(c, hz)| (c.channels(), hz));
-        assert_eq!(of(0, 48_000), Some((1, 48_000)));
-        assert_eq!(of(1, 48_000), Some((2, 48_000)));
-        assert_eq!(of(0, 96_000), Some((2, 96_000)));
-        assert_eq!(of(5, 48_000), Some((8, 44_100)));
-        assert_eq!(of(8, 48_000), None);
-    }
-
-    #[test]
-    fn inputs_that_do_not_exist_are_named_with_what_to_do() {
-        for id in ["", "nonsense", "alsa:no_such_pcm", "alsa:hw:CARD=0,DEV=0"] {
-            let error = Recorder::open(id, 0, 48_000).unwrap_err();
-            assert_eq!(error.kind(), DeviceErrorKind::NotFound, "{error}");
-            let text = error.to_string();
-            assert!(
-                text.contains(&format!("the input `{id}`")) || text.contains(&format!("no input `{id}`")),
-                "{text}"
-            );
-        }
-    }
-
-    #[test]
-    fn takes_its_channel_says_when_and_drops_what_nobody_reads() {
-        let told = Arc::new(Told::default());
-        let (producer, mut samples) = RingBuffer::new(5);
-        let config = StreamConfig { channels: 3, sample_rate: 1000, buffer_size: cpal::BufferSize::Default };
-        let (times_in, mut times) = triple_buffer(&None);
-        let opened = Instant::now();
-        let mut intake = Intake::new(config, 1, opened, producer, Arc::clone(&told), times_in);
-        // The block has two complete frames and the start of a third.
-        intake.take(&[0_i16, 16_384, 0, 0, -16_384, 0, 7], Duration::from_millis(2));
-        let first_secs = times.read().unwrap().first_secs;
-        assert!((-0.002..opened.elapsed().as_secs_f64() - 0.002).contains(&first_secs), "{first_secs}");
-        intake.take(&[0.0_f32, 0.25, 0.0].repeat(4), Duration::ZERO);
-        let read: Vec<f32> = std::iter::from_fn(|| samples.pop().ok()).collect();
-        assert_eq!(read, [0.5, -0.5, 0.25, 0.25, 0.25]);
-        assert_eq!(told.n_dropped.load(Ordering::Relaxed), 1);
-    }
-
-    #[test]
-    fn what_the_stream_reports_is_counted_once_there_is_something_to_miss() {
-        let told = Told::default();
-        let n_dropped = || told.n_dropped.load(Ordering::Relaxed);
-        told.note_error(ErrorKind::Xrun);
-        assert_eq!(n_dropped(), 0);
-        told.has_begun.store(true, Ordering::Relaxed);
-        told.note_error(ErrorKind::RealtimeDenied);
-        assert_eq!(n_dropped(), 0);
-        told.note_error(ErrorKind::Xrun);
-        told.note_error(ErrorKind::Other);
-        assert_eq!((n_dropped(), told.is_lost.load(Ordering::Relaxed)), (2, false));
-        for kind in [ErrorKind::DeviceNotAvailable, ErrorKind::DeviceChanged, ErrorKind::StreamInvalidated] {
-            let told = Told::default();
-            told.note_error(kind);
-            assert!(told.is_lost.load(Ordering::Relaxed), "{kind:?}");
-        }
-    }
-}
+mod tests;

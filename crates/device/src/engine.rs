@@ -61,6 +61,10 @@ const TOUCHES: usize = 256;
 pub const LIVE_INPUTS: usize = 2;
 /// Capacity of the scope queue in samples: more than half a second at 48 kHz.
 const SCOPE: usize = 32_768;
+/// Highest amplitude of a tap transient at the usual impact speed, as a share of the range in which the limiter is linear.
+/// A hard surface lands with more than most actuators can do. Left to the limiter, its transient would silence the grain
+/// until the limiter releases. The rest of the range is for the grain and for faster impacts.
+const TAP_SHARE: f32 = 0.7;
 /// Frames rendered at a time.
 const SCRATCH: usize = 256;
 
@@ -115,6 +119,8 @@ pub struct Engine {
     player: Player,
     taps: Taps,
     tap: Tap,
+    /// Highest amplitude of a tap transient at the usual impact speed, at the output, in m/s².
+    tap_range_mps2: f32,
     landing: Option<Landing>,
     signal: SignalPlayer,
     chain: DriveChain,
@@ -170,6 +176,7 @@ pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
         player: Player::new(),
         taps: Taps::new(config.device_rate_hz),
         tap: Tap::SILENT,
+        tap_range_mps2: TAP_SHARE * config.drive.linear_mps2(),
         landing: None,
         signal: SignalPlayer::new(fade_frames),
         chain: DriveChain::new(config.drive, config.device_rate_hz),
@@ -372,7 +379,9 @@ impl Engine {
             if ahead < rest.len() {
                 let (before, after) = rest.split_at_mut(ahead);
                 self.taps.add_to(before);
-                self.taps.strike(self.tap, landing.strength);
+                // A gain of zero permits any amplitude and silences it.
+                let range_mps2 = self.tap_range_mps2 / self.gain.target();
+                self.taps.strike(self.tap.within(range_mps2), landing.strength);
                 self.landing = None;
                 self.player.note_contact(landing.stream_secs, landing.stream_secs);
                 rest = after;

@@ -31,6 +31,9 @@
 #![deny(unsafe_code)]
 #![cfg_attr(test, allow(clippy::unwrap_used, clippy::expect_used, reason = "tests"))]
 
+#[cfg(target_os = "linux")]
+#[expect(unsafe_code, reason = "ALSA writes to standard error unless a C function pointer is set")]
+mod alsa_messages;
 mod audio;
 pub mod audio_input;
 pub mod controls;

@@ -7,6 +7,7 @@
 
 mod connection;
 mod playback;
+pub(crate) mod record;
 
 use std::net::Shutdown;
 use std::os::unix::net::UnixStream;
@@ -16,7 +17,7 @@ use std::thread::JoinHandle;
 
 use pulseaudio::protocol::{Command, ServerInfo, SinkInfo, SinkInfoList};
 
-use self::connection::Connection;
+use self::connection::{Connection, unavailable};
 use self::playback::{Playback, StreamKind};
 use crate::edge::Edge;
 use crate::engine::Handle;
@@ -79,12 +80,9 @@ pub(crate) struct Opened {
 /// Opens the sink with this id.
 pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), DeviceError> {
     let name = id.strip_prefix(PREFIX).unwrap_or(id);
-    let unavailable = |error: connection::Failure| {
-        let message = format!("the sound server does not respond: {error}; start it and try again");
-        DeviceError::new(DeviceErrorKind::Unavailable, message)
-    };
-    let mut connection = Connection::open().map_err(unavailable)?;
-    let sinks = connection.ask::<SinkInfoList>(&Command::GetSinkInfoList).map_err(unavailable)?;
+    let mut connection = Connection::open().map_err(|failure| unavailable(&failure))?;
+    let sinks = connection.ask::<SinkInfoList>(&Command::GetSinkInfoList);
+    let sinks = sinks.map_err(|failure| unavailable(&failure))?;
     let Some(sink) = sinks.into_iter().find(|sink| sink.name.to_bytes() == name.as_bytes()) else {
         let message =
             format!("there is no output `{id}` on this machine; `shagreen devices` lists the available ones");

@@ -22,6 +22,7 @@ use shagreen_core::actuator::{
 use shagreen_core::units::{Hertz, Kilograms, Volts};
 
 use crate::library::id_from_name;
+use crate::parser_words::plain;
 
 /// Value of the `format` key.
 pub const FORMAT: &str = "shagreen-actuator";
@@ -275,7 +276,7 @@ fn quoted(text: &str) -> String {
 
 /// The parser's message on one line, with the line number in the file.
 fn damaged(error: &toml::de::Error, text: &str) -> ActuatorFileError {
-    let message = error.message().replace('\n', " ");
+    let message = plain(error.message());
     let before = error.span().and_then(|span| text.get(..span.start));
     let reason = match before {
         Some(before) => format!("{message} at line {}", before.matches('\n').count() + 1),
@@ -401,7 +402,7 @@ mod tests {
     #[test]
     fn what_is_wrong_is_named_with_its_place() {
         let good = BUILT_IN[0];
-        check_error(&good.replace("peak_v", "peak_volts"), "unknown field `peak_volts`");
+        check_error(&good.replace("peak_v", "peak_volts"), "the field `peak_volts` is unknown");
         check_error(&good.replace("peak_v", "peak_volts"), "at line 20");
         check_error(&good.replace("q = 4.08634", "q = nan"), "Q is NaN, needs 0.1 to 1000");
         check_error(&good.replace("peak_v = 4.5", "peak_v = -4.5"), "the peak voltage in V is -4.5");
@@ -412,7 +413,7 @@ mod tests {
             &good.replace("id = \"haptuator-mark-ii\"", "id = \"Mark II\""),
             "`id` is \"Mark II\", which is not a valid identifier",
         );
-        check_error("x = 1", "missing field");
+        check_error("x = 1", "the field `format` is missing");
         check_error("[", "line 1");
         assert!(read_actuator(b"a = \"\xff\"").unwrap_err().to_string().contains("byte 5"));
     }

@@ -30,6 +30,7 @@
 
 use toml::Value;
 
+use crate::parser_words::plain;
 use crate::recording::{Ask, ColumnMap};
 
 /// Why bytes are not a column map.
@@ -66,7 +67,7 @@ pub fn read_map(bytes: &[u8]) -> Result<ColumnMap, MapError> {
     let table: toml::Table = toml::from_str(text).map_err(|error| {
         let before = error.span().and_then(|span| text.get(..span.start));
         let line = before.map_or(1, |before| before.matches('\n').count() + 1);
-        MapError::Damaged { reason: format!("{} in line {line}", error.message().replace('\n', " ")) }
+        MapError::Damaged { reason: format!("{} in line {line}", plain(error.message())) }
     })?;
     for [constant, column] in EXCLUSIVE {
         if table.contains_key(constant) && table.contains_key(column) {

@@ -8,6 +8,8 @@ use std::collections::HashSet;
 use serde::Deserialize;
 use shagreen_core::surfaces::material::{Bumps, Material, MaterialError, Pattern, PatternKind, validate};
 
+use crate::parser_words::plain;
+
 /// The materials of a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Materials {
@@ -139,7 +141,7 @@ pub fn read_materials(bytes: &[u8]) -> Result<Materials, MaterialsError> {
 
 /// The parser's message on one line, with the line number in the file.
 fn damaged(error: &toml::de::Error, text: &str) -> MaterialsError {
-    let message = error.message().replace('\n', " ");
+    let message = plain(error.message());
     let before = error.span().and_then(|span| text.get(..span.start));
     let reason = match before {
         Some(before) => format!("{message} at line {}", before.matches('\n').count() + 1),

@@ -4,6 +4,9 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::Value;
 
+use crate::foreign_file::Found;
+use crate::parser_words::plain;
+
 /// The two fields that identify a Shagreen file.
 #[derive(Deserialize)]
 pub(crate) struct Header {
@@ -20,8 +23,8 @@ pub(crate) enum HeaderFault {
     TooDense(String),
     /// Not JSON, or truncated.
     Damaged(String),
-    /// JSON of another format; holds the `format` field.
-    Format(String),
+    /// Another format.
+    Format(Found),
     /// The version is not `major.minor`; holds the `version` field.
     Version(String),
     /// An unsupported major version; holds the version.
@@ -52,7 +55,7 @@ impl Header {
     /// Returns the minor version if format and major version match.
     pub(crate) fn minor_version(&self, format: &str, known_major: u32) -> Result<u32, HeaderFault> {
         if self.format != format {
-            return Err(HeaderFault::Format(shown(&self.format)));
+            return Err(HeaderFault::Format(Found::Json(shown(&self.format))));
         }
         let (major, minor) =
             numbers(&self.version).ok_or_else(|| HeaderFault::Version(shown(&self.version)))?;
@@ -72,12 +75,13 @@ pub(crate) fn check_density(bytes: &[u8]) -> Result<(), HeaderFault> {
 /// Parses the header. JSON that is not an object counts as another format.
 fn header(bytes: &[u8]) -> Result<Header, HeaderFault> {
     if bytes.trim_ascii_start().first() == Some(&b'{') {
-        return serde_json::from_slice(bytes).map_err(|error| HeaderFault::Damaged(error.to_string()));
+        return serde_json::from_slice(bytes)
+            .map_err(|error| HeaderFault::Damaged(plain(&error.to_string())));
     }
     match serde_json::from_slice::<IgnoredAny>(bytes) {
-        Ok(_) => Err(HeaderFault::Format(shown(&Value::Null))),
+        Ok(_) => Err(HeaderFault::Format(Found::Json(shown(&Value::Null)))),
         // Every Shagreen file begins with a brace, so this is not a truncated Shagreen file.
-        Err(_) => Err(HeaderFault::Format("missing".to_owned())),
+        Err(_) => Err(HeaderFault::Format(Found::of(bytes))),
     }
 }
 
@@ -99,16 +103,18 @@ fn shown(value: &Value) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{HeaderFault, minor_version};
+    use super::{Found, HeaderFault, minor_version};
 
     #[test]
     fn a_file_says_what_it_is() {
         let of = |text: &str| minor_version(text.as_bytes(), "ours", 1);
         assert_eq!(of(r#"{"format": "ours", "version": "1.7", "more": []}"#), Ok(7));
         let fault = |text: &str| of(text).unwrap_err();
-        assert_eq!(fault("[]"), HeaderFault::Format("missing".to_owned()));
-        assert_eq!(fault("hello"), HeaderFault::Format("missing".to_owned()));
-        assert_eq!(fault(r#"{"format": "other"}"#), HeaderFault::Format("\"other\"".to_owned()));
+        let json = |format: &str| HeaderFault::Format(Found::Json(format.to_owned()));
+        assert_eq!(fault("[]"), json("missing"));
+        assert_eq!(fault("hello"), HeaderFault::Format(Found::Unknown));
+        assert_eq!(fault(""), HeaderFault::Format(Found::Empty));
+        assert_eq!(fault(r#"{"format": "other"}"#), json("\"other\""));
         assert_eq!(fault(r#"{"format": "ours"}"#), HeaderFault::Version("missing".to_owned()));
         assert_eq!(
             fault(r#"{"format": "ours", "version": "1.x"}"#),

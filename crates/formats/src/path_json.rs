@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use serde::Serializer;
+use serde::{Serialize as _, Serializer};
 use serde_json::{Value, json};
 
 const BYTES: &str = "unix_bytes";
@@ -26,6 +26,11 @@ pub(crate) fn from_json(value: &Value) -> Option<PathBuf> {
     return Some(PathBuf::from(std::os::unix::ffi::OsStrExt::from_bytes(&bytes) as &std::ffi::OsStr));
     #[cfg(not(unix))]
     return String::from_utf8(bytes).ok().map(PathBuf::from);
+}
+
+/// Serializes a path for a struct field.
+pub(crate) fn serialize<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
+    to_json(path).serialize(serializer)
 }
 
 /// Serializes paths for a struct field.

@@ -162,7 +162,14 @@ pub enum PictureError {
     CutOff,
     /// The compressed bytes are damaged.
     #[error("the picture is damaged; replace it")]
-    Codec(#[from] ImageError),
+    Codec(ImageError),
+}
+
+/// The decoder's words are not a cause to show: they name its own types.
+impl From<ImageError> for PictureError {
+    fn from(error: ImageError) -> Self {
+        Self::Codec(error)
+    }
 }
 
 /// Encodes pixels as JPEG at [`JPEG_QUALITY`]; `millimeters` is the width of the surface patch.

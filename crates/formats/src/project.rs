@@ -34,6 +34,7 @@
 //! Unknown fields of the project or of an authored texture are kept and written back. A file of a higher major version
 //! is rejected.
 
+pub mod clipboard;
 mod error;
 mod read;
 mod v1;
@@ -56,7 +57,7 @@ use crate::placed_space::PlacedSpace;
 use crate::starter::SimulatedLibraryError;
 
 pub use crate::project::error::ProjectError;
-pub use crate::project::read::{read_project, sha256_hex};
+pub use crate::project::read::{read_project, read_project_on, sha256_hex};
 pub use crate::project::write::write_project;
 
 /// Value of the `format` field of a project.

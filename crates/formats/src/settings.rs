@@ -8,6 +8,7 @@ use serde_json::{Map, Value};
 
 use crate::layout;
 use crate::own_json::check_density;
+use crate::parser_words::plain;
 use crate::path_json;
 use crate::rig_settings::RigSettings;
 
@@ -18,6 +19,8 @@ const OPEN_DEPTH: usize = 2;
 pub const MAX_RECENT: usize = 12;
 /// Number of recent prompts that are saved.
 pub const MAX_PROMPTS: usize = 24;
+/// Number of permitted libraries that are saved.
+pub const MAX_LIBRARIES: usize = 200;
 
 /// The saved settings.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -45,9 +48,18 @@ pub struct Settings {
     /// Whether a texture plays while the pointer rests on it.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub plays_on_hover: bool,
+    /// Whether animations are off; `None` follows the desktop.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reduces_motion: Option<bool>,
+    /// Identifiers of the hints that the user has learned and that do not appear any more.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub learned_hints: Vec<String>,
     /// Recent prompts, newest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub prompts: Vec<KeptPrompt>,
+    /// Libraries outside the folders of their projects that the user has permitted, newest first.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub libraries: Vec<PermittedLibrary>,
     /// Fields of other versions.
     #[serde(flatten)]
     pub unknown: Map<String, Value>,
@@ -65,15 +77,26 @@ pub struct KeptPrompt {
     pub by_diffusion: bool,
 }
 
+/// A library that a project may read although it lies outside the folder of the project.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct PermittedLibrary {
+    /// Absolute path of the project.
+    #[serde(serialize_with = "path_json::serialize")]
+    pub project: PathBuf,
+    /// Absolute path of the library.
+    #[serde(serialize_with = "path_json::serialize")]
+    pub library: PathBuf,
+}
+
 /// Why the device setup in a settings file is unknown. Without it, an actuator would be driven without its limits.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SettingsError {
     /// The file is not a JSON object.
-    #[error("it is not a JSON object ({0})")]
+    #[error("it is not a JSON object ({})", plain(&.0.to_string()))]
     Format(serde_json::Error),
     /// The device setup has a form that this version does not know.
-    #[error("its field \"rig\" is invalid or from another version: {0}")]
+    #[error("its field \"rig\" is invalid or from another version: {}", plain(&.0.to_string()))]
     Rig(serde_json::Error),
 }
 
@@ -85,6 +108,22 @@ impl Settings {
         self.recent.retain(|other| *other != path);
         self.recent.insert(0, path);
         self.recent.truncate(MAX_RECENT);
+    }
+
+    /// Records that the project at a path may read a library outside its folder.
+    pub fn permit_library(&mut self, project: &Path, library: &Path) {
+        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let permitted = PermittedLibrary { project: absolute(project), library: absolute(library) };
+        self.libraries.retain(|other| *other != permitted);
+        self.libraries.insert(0, permitted);
+        self.libraries.truncate(MAX_LIBRARIES);
+    }
+
+    /// Returns the libraries outside its folder that the project at a path may read.
+    pub fn libraries_of(&self, project: &Path) -> Vec<PathBuf> {
+        let project = std::path::absolute(project).unwrap_or_else(|_| project.to_owned());
+        let of_project = self.libraries.iter().filter(|permitted| permitted.project == project);
+        of_project.map(|permitted| permitted.library.clone()).collect()
     }
 
     /// Records a prompt.
@@ -118,9 +157,14 @@ pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
         has_seen_tour: taken(&mut all, "has_seen_tour").unwrap_or_default(),
         is_silent_while_dragging: taken(&mut all, "is_silent_while_dragging").unwrap_or_default(),
         plays_on_hover: taken(&mut all, "plays_on_hover").unwrap_or_default(),
+        reduces_motion: taken(&mut all, "reduces_motion"),
+        learned_hints: taken(&mut all, "learned_hints").unwrap_or_default(),
         scale: taken(&mut all, "scale").filter(|scale: &f32| scale.is_finite()),
         template: taken(&mut all, "template").and_then(|path: Value| path_json::from_json(&path)),
         prompts: taken(&mut all, "prompts").unwrap_or_default(),
+        libraries: taken(&mut all, "libraries")
+            .map(|all: Vec<Value>| all.iter().filter_map(permitted_library).collect())
+            .unwrap_or_default(),
         rig,
         unknown: all,
     };
@@ -140,10 +184,13 @@ pub fn merged(base: &Settings, ours: &Settings, theirs: Settings) -> Settings {
             theirs.is_silent_while_dragging,
         ),
         plays_on_hover: newer(&base.plays_on_hover, &ours.plays_on_hover, theirs.plays_on_hover),
+        reduces_motion: newer(&base.reduces_motion, &ours.reduces_motion, theirs.reduces_motion),
+        learned_hints: joined(&base.learned_hints, &ours.learned_hints, theirs.learned_hints, usize::MAX),
         scale: newer(&base.scale, &ours.scale, theirs.scale),
         template: newer(&base.template, &ours.template, theirs.template),
         rig: newer(&base.rig, &ours.rig, theirs.rig),
         prompts: joined(&base.prompts, &ours.prompts, theirs.prompts, MAX_PROMPTS),
+        libraries: joined(&base.libraries, &ours.libraries, theirs.libraries, MAX_LIBRARIES),
         unknown: theirs.unknown,
     }
 }
@@ -160,6 +207,11 @@ fn joined<T: Clone + PartialEq>(base: &[T], ours: &[T], theirs: Vec<T>, most: us
     }
     let others = theirs.into_iter().filter(|item| !ours.contains(item));
     ours.iter().cloned().chain(others).take(most).collect()
+}
+
+fn permitted_library(wire: &Value) -> Option<PermittedLibrary> {
+    let path = |name: &str| path_json::from_json(wire.get(name)?);
+    Some(PermittedLibrary { project: path("project")?, library: path("library")? })
 }
 
 /// Removes and parses a setting whose loss is harmless.
@@ -193,6 +245,8 @@ mod tests {
         let mut settings = Settings { is_light: Some(true), ..Settings::default() };
         settings.note_project(Path::new("/a.shagreen"));
         (settings.scale, settings.template) = (Some(1.5), Some("/b.shagreen".into()));
+        settings.learned_hints = vec!["drag-point".to_owned()];
+        settings.reduces_motion = Some(false);
         #[cfg(unix)]
         {
             use std::os::unix::ffi::OsStrExt as _;
@@ -212,6 +266,21 @@ mod tests {
             let (settings, error) = read_settings(nothing);
             assert!(settings == Settings::default() && matches!(error, Some(SettingsError::Format(_))));
         }
+    }
+
+    #[test]
+    fn a_library_is_permitted_for_its_project_only() {
+        let mut settings = Settings::default();
+        for library in ["/other/b.json", "/other/a.json", "/other/b.json"] {
+            settings.permit_library(Path::new("/woods/a.shagreen"), Path::new(library));
+        }
+        let permitted = ["/other/b.json", "/other/a.json"].map(Path::new);
+        assert_eq!(settings.libraries_of(Path::new("/woods/a.shagreen")), permitted);
+        assert!(settings.libraries_of(Path::new("/woods/b.shagreen")).is_empty());
+        let written = write_settings(&settings);
+        assert_eq!(read(&written).libraries, settings.libraries);
+        let damaged = br#"{"libraries": [{"project": "/a"}, 3, {"project": "/a", "library": "/b"}]}"#;
+        assert_eq!(read(damaged).libraries_of(Path::new("/a")), [Path::new("/b")]);
     }
 
     /// An unreadable setting affects no other, least of all the device setup.
@@ -278,6 +347,9 @@ mod tests {
         let (mut ours, mut theirs) = (base.clone(), base.clone());
         ours.note_project(Path::new("/ours"));
         ours.is_light = Some(true);
+        ours.reduces_motion = Some(true);
+        ours.learned_hints = vec!["a".to_owned()];
+        theirs.learned_hints = vec!["b".to_owned()];
         theirs.note_project(Path::new("/theirs"));
         (theirs.scale, theirs.has_seen_tour) = (Some(1.5), true);
         theirs.unknown.insert("later".to_owned(), 2.into());
@@ -285,6 +357,8 @@ mod tests {
         assert_eq!(both.recent, ["/ours", "/a", "/b", "/theirs"].map(path));
         assert_eq!((both.is_light, both.scale, both.has_seen_tour), (Some(true), Some(1.5), true));
         assert_eq!(both.unknown, theirs.unknown);
+        assert_eq!(both.reduces_motion, Some(true));
+        assert_eq!(both.learned_hints, ["a", "b"]);
         assert_eq!(merged(&base, &base, theirs.clone()), theirs);
         assert_eq!(merged(&base, &ours, base.clone()), ours);
     }

@@ -104,6 +104,22 @@ mod tests {
     }
 
     #[test]
+    fn harder_materials_land_at_higher_frequencies() {
+        let library = starter_library().unwrap();
+        let mut by_stiffness: Vec<(f64, f64)> = library
+            .textures
+            .iter()
+            .map(|t| (t.physical.unwrap().hardness_log10_n_per_m, t.model.tap().unwrap().frequency.0))
+            .collect();
+        by_stiffness.sort_by(|a, b| a.0.total_cmp(&b.0));
+        assert!(by_stiffness.is_sorted_by_key(|(_, hz)| *hz), "{by_stiffness:?}");
+        let hz =
+            |id: &str| library.textures.iter().find(|t| t.id == id).unwrap().model.tap().unwrap().frequency.0;
+        let order = ["open-cell-foam", "flat-rubber", "sanded-wood", "glass"].map(hz);
+        assert!(order.is_sorted(), "{order:?}");
+    }
+
+    #[test]
     fn every_material_of_it_is_an_anchor() {
         let (anchors, span) = starter_anchors().unwrap();
         let library = starter_library().unwrap();

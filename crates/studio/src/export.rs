@@ -1,8 +1,10 @@
 //! Export of a texture to the formats of other programs: one table for the command line, the window and the guide.
 //!
-//! A new format is a file below `export/`, a line in [`FORMATS`] and a row in `docs/guide/files-and-formats.md`.
+//! A new format of texture models is a file below `export/`, a line in [`FORMATS`] and a row in
+//! `docs/guide/files-and-formats.md`. [`WAV`] stands apart, because a signal needs a stroke too.
 
 mod hatt;
+mod wav;
 
 use std::path::{Path, PathBuf};
 
@@ -11,6 +13,21 @@ use shagreen_formats::library::{Library, Provenance, TextureEntry};
 
 use crate::replace::refuse_foreign;
 use crate::report::Reporter;
+
+pub use self::wav::{Rendered, WAV, lost_in_wav};
+
+/// What a list of formats shows about one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FormatInfo {
+    /// Identifier for scripts.
+    pub id: &'static str,
+    /// Name for menus.
+    pub name: &'static str,
+    /// Ending of the files, without the dot.
+    pub ending: &'static str,
+    /// One sentence that names the programs that read it.
+    pub help: &'static str,
+}
 
 /// A file format for textures.
 pub trait ExportFormat: Sync {
@@ -42,7 +59,18 @@ pub trait ExportFormat: Sync {
 /// All export formats, in the order of menus.
 pub static FORMATS: [&dyn ExportFormat; 1] = [&hatt::Hatt];
 
-/// Returns the format with this id.
+/// Returns all formats in the order of lists: [`WAV`], then those of [`FORMATS`].
+pub fn listed() -> impl Iterator<Item = FormatInfo> {
+    let info = |format: &'static dyn ExportFormat| FormatInfo {
+        id: format.id(),
+        name: format.name(),
+        ending: format.ending(),
+        help: format.help(),
+    };
+    std::iter::once(WAV).chain(FORMATS.into_iter().map(info))
+}
+
+/// Returns the format of texture models with this id.
 pub fn format(id: &str) -> Option<&'static dyn ExportFormat> {
     FORMATS.into_iter().find(|format| format.id() == id)
 }
@@ -92,7 +120,7 @@ pub fn export(
 
 #[cfg(test)]
 mod tests {
-    use super::{FORMATS, export, format};
+    use super::{FORMATS, export, format, listed};
     use crate::report::Warnings;
     use shagreen_formats::starter::starter_library;
 
@@ -108,6 +136,8 @@ mod tests {
             assert!(!one.is_like(b"my notes"));
         }
         assert!(format("none").is_none());
+        let ids: std::collections::BTreeSet<&str> = listed().map(|format| format.id).collect();
+        assert_eq!(ids.len(), FORMATS.len() + 1);
     }
 
     #[test]

@@ -47,7 +47,14 @@ pub fn shown_name(path: &Path) -> String {
 /// # Errors
 /// The file does not exist, is a folder, pipe or device, is too large or cannot be read; the message says what to do.
 pub fn read_file(path: &Path, kind: FileKind) -> anyhow::Result<Vec<u8>> {
-    let reason = |error: &io::Error| match error.kind() {
+    bounded_file::read(path, kind)
+        .map_err(|error| anyhow::anyhow!("cannot read the file: {}", reason_of(&error)))
+        .with_context(|| in_file(path))
+}
+
+/// Returns why the system does not read a file, and what to do.
+pub(crate) fn reason_of(error: &io::Error) -> String {
+    match error.kind() {
         io::ErrorKind::NotFound => "there is no such file; check its name and its folder".to_owned(),
         io::ErrorKind::IsADirectory => "it is a folder; choose a file in it".to_owned(),
         io::ErrorKind::PermissionDenied => {
@@ -55,10 +62,7 @@ pub fn read_file(path: &Path, kind: FileKind) -> anyhow::Result<Vec<u8>> {
         }
         io::ErrorKind::FileTooLarge | io::ErrorKind::InvalidInput => format!("{error}; choose another file"),
         _ => format!("{error}; check its name and your permissions"),
-    };
-    bounded_file::read(path, kind)
-        .map_err(|error| anyhow::anyhow!("cannot read the file: {}", reason(&error)))
-        .with_context(|| in_file(path))
+    }
 }
 
 /// Returns the ending of a file's name in lower case; empty if there is none.

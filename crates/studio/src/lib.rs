@@ -26,6 +26,7 @@ pub mod models;
 pub mod near_names;
 pub mod open;
 pub mod parallel;
+pub mod permitted_libraries;
 pub mod place_estimate;
 pub mod project;
 pub mod render;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, ensure};
+use anyhow::{Context as _, anyhow, ensure};
 use serde::{Deserialize, Serialize};
 use shagreen_formats::atomic;
 use shagreen_formats::bounded_file::{self, FileKind};
@@ -12,7 +12,7 @@ use shagreen_learn::diffusion::{Diffusion, Files, Part};
 use shagreen_learn::model_file::sha256_of;
 use shagreen_learn::picture_predictor::PicturePredictor;
 
-use crate::file::file_name;
+use crate::file::{file_name, reason_of};
 
 /// Folder of the networks, and of the records of networks elsewhere; it need not exist yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -90,7 +90,7 @@ impl ModelFolder {
     pub fn add_diffusion(&self, from: &Path) -> anyhow::Result<AddedDiffusion> {
         let from = from
             .canonicalize()
-            .with_context(|| format!("there is no such folder; check its name: {}", from.display()))?;
+            .map_err(|_| anyhow!("there is no such folder; check its name: {}", from.display()))?;
         let (files, sha256) = read_parts(&from)?;
         Diffusion::new(files).with_context(|| format!("this model cannot be used: {}", from.display()))?;
         let added = AddedDiffusion { format: ADDED.to_owned(), folder: from, sha256 };
@@ -156,9 +156,8 @@ fn read_parts(folder: &Path) -> anyhow::Result<(Files, BTreeMap<String, String>)
 }
 
 fn read(path: &Path) -> anyhow::Result<Vec<u8>> {
-    bounded_file::read(path, FileKind::Network).with_context(|| {
-        format!("cannot read the file; check its name and your permissions: {}", path.display())
-    })
+    bounded_file::read(path, FileKind::Network)
+        .map_err(|error| anyhow!("cannot read the file: {}: {}", reason_of(&error), path.display()))
 }
 
 #[cfg(test)]

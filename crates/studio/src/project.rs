@@ -8,6 +8,7 @@ use shagreen_formats::library::Library;
 use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
 
 use crate::open::{Opened, open};
+use crate::permitted_libraries::Permitted;
 use crate::report::Reporter;
 
 /// Name of the first texture of a new project.
@@ -22,8 +23,8 @@ pub fn new_project() -> Project {
 ///
 /// # Errors
 /// The file cannot be read or is not a project.
-pub fn load_project(path: &Path, reporter: &dyn Reporter) -> anyhow::Result<Project> {
-    match open(path)? {
+pub fn load_project(path: &Path, permitted: &Permitted, reporter: &dyn Reporter) -> anyhow::Result<Project> {
+    match open(path, permitted)? {
         Opened::Project(opened) => {
             for warning in &opened.warnings {
                 reporter.warn(&format!("{warning}: {}", path.display()));

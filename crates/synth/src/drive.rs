@@ -52,6 +52,11 @@ impl DriveConfig {
         self.inverse
             .map_or(self.full_scale, |inverse| self.full_scale * inverse.resonance.gain_mps2_per_volt as f32)
     }
+
+    /// Acceleration in m/s² up to which the limiter is linear; with an inverse, far above the resonance.
+    pub fn linear_mps2(&self) -> f32 {
+        KNEE_SHARE * self.ceiling * self.full_scale_mps2()
+    }
 }
 
 /// Kind of samples that enter the output stage.

@@ -16,6 +16,12 @@ pub struct Tap {
 impl Tap {
     /// No tap transient.
     pub const SILENT: Self = Self { frequency_hz: 0.0, decay_per_sec: 0.0, amplitude_mps2: 0.0 };
+
+    /// The transient with at most this amplitude, in m/s².
+    #[must_use]
+    pub fn within(self, highest_mps2: f32) -> Self {
+        Self { amplitude_mps2: self.amplitude_mps2.min(highest_mps2), ..self }
+    }
 }
 
 /// Most transients at once; a fifth replaces the oldest.

@@ -1,17 +1,16 @@
 //! List of the authored textures and their snapshots.
 
-use egui::{
-    Button, Id, Label, Rect, Response, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
-};
+use egui::{Button, Id, Label, Rect, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 use shagreen_core::space::SpacePoint;
-use shagreen_formats::library::free_name;
-use shagreen_formats::project::{AuthoredTexture, N_COLORS};
+use shagreen_formats::project::AuthoredTexture;
 
+use crate::author::authored_menu::authored_menu;
 use crate::author::compare_ui::compare_ui;
+use crate::author::context_menu::context_menu;
+use crate::author::new_texture::{fresh, of_snapshot};
 use crate::command::Command;
 use crate::look::theme::{RADIUS, tokens};
 use crate::panel::Panel;
-use crate::state::compare::{CompareCommand, Side};
 use crate::state::edit::Edit;
 use crate::strings::{self, authored as words};
 
@@ -23,8 +22,8 @@ const CHIP: f32 = 18.0;
 const LIST_HEIGHT: f32 = 5.0 * ROW;
 /// Maximum share of the column height that the list takes.
 const LIST_SHARE: f32 = 0.21;
-/// Offset of a copy from its original along each axis, in axis units (0 to 100).
-const BESIDE: f64 = 4.0;
+/// Center of the space.
+const MIDDLE: SpacePoint = SpacePoint { rough_smooth: 50.0, hard_soft: 50.0 };
 
 /// Draws the list; returns the requested commands.
 pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
@@ -39,7 +38,7 @@ pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         );
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.button(words::ADD).on_hover_text(words::ADD_HELP).clicked() {
-                commands.push(Command::Edit(Edit::Author(fresh(panel))));
+                commands.push(Command::Edit(Edit::Author(fresh(panel, MIDDLE))));
             }
         });
     });
@@ -74,44 +73,6 @@ fn selected_another(ui: &Ui, key: u32) -> bool {
     })
 }
 
-/// New texture at the middle of the space, with the interpolation settings of the selected one.
-fn fresh(panel: &Panel<'_>) -> AuthoredTexture {
-    let selected = panel.project.texture();
-    AuthoredTexture {
-        color: next_color(panel),
-        blend: selected.blend.clone(),
-        ..AuthoredTexture::new(0, &own_name(panel, strings::NEW_TEXTURE))
-    }
-}
-
-/// Copy of an authored texture, offset by [`BESIDE`].
-pub(crate) fn copy_of(panel: &Panel<'_>, texture: &AuthoredTexture) -> AuthoredTexture {
-    // Added to each coordinate, or subtracted if the sum would exceed 100.
-    let step = |x: f64| if x + BESIDE <= 100.0 { x + BESIDE } else { x - BESIDE };
-    let at =
-        SpacePoint { rough_smooth: step(texture.at.rough_smooth), hard_soft: step(texture.at.hard_soft) };
-    let name = own_name(panel, &words::copy_of(&texture.name));
-    AuthoredTexture { name, color: next_color(panel), at, ..texture.clone() }
-}
-
-/// New authored texture with the state of a snapshot.
-fn of_snapshot(panel: &Panel<'_>, snapshot: &AuthoredTexture, number: usize) -> AuthoredTexture {
-    let name = own_name(panel, &words::state_of(&snapshot.name, number));
-    AuthoredTexture { name, color: next_color(panel), ..snapshot.clone() }
-}
-
-/// `name`, with a number appended if another authored texture has it.
-fn own_name(panel: &Panel<'_>, name: &str) -> String {
-    free_name(name, |name| panel.project.authored.iter().any(|texture| texture.name == name))
-}
-
-/// Color index used by the fewest authored textures.
-pub(crate) fn next_color(panel: &Panel<'_>) -> u8 {
-    let n_of = |color: u8| panel.project.authored.iter().filter(|texture| texture.color == color).count();
-    // `N_COLORS` is not zero, so there is a minimum.
-    (0..N_COLORS).min_by_key(|color| n_of(*color)).unwrap_or(0)
-}
-
 fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: bool) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
@@ -127,13 +88,13 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
     ui.painter().circle_filled(dot, 6.5, t.background);
     ui.painter().circle_filled(dot, 5.0, t.authored[usize::from(texture.color)]);
     let mut room = Rect::from_min_max(pos2(area.left() + 24.0, area.top() + 2.0), area.max);
+    let color = if is_selected { t.on_chosen } else { t.text };
     if let Some(side) = panel.compare.side_of(texture.key) {
         let corner = pos2(area.right() - 5.0, area.center().y);
         let font = egui::FontId::proportional(11.5);
-        ui.painter().text(corner, egui::Align2::RIGHT_CENTER, side.letter(), font, t.text_weak);
+        ui.painter().text(corner, egui::Align2::RIGHT_CENTER, side.letter(), font, color);
         room.max.x -= 16.0;
     }
-    let color = if is_selected { t.on_chosen } else { t.text };
     let mut name = ui.new_child(egui::UiBuilder::new().max_rect(room));
     let shown = if texture.name.trim().is_empty() { words::UNNAMED } else { &texture.name };
     name.add(Label::new(RichText::new(shown).color(color)).truncate().selectable(false));
@@ -150,33 +111,6 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
     }
     response.on_hover_text(help);
     commands
-}
-
-/// Context menu of an authored texture.
-pub(crate) fn authored_menu(
-    response: &Response,
-    panel: &Panel<'_>,
-    texture: &AuthoredTexture,
-) -> Option<Command> {
-    let (mut asked, mut assigned) = (None, None);
-    response.context_menu(|ui| {
-        if ui.button(words::DUPLICATE).on_hover_text(words::DUPLICATE_HELP).clicked() {
-            asked = Some(Edit::Author(copy_of(panel, texture)));
-        }
-        let can_go = panel.project.authored.len() > 1;
-        if ui.add_enabled(can_go, Button::new(words::DELETE)).clicked() {
-            asked = Some(Edit::Remove(texture.key));
-        }
-        ui.separator();
-        for side in [Side::A, Side::B] {
-            let is_there = panel.compare.side_of(texture.key) == Some(side);
-            let button = Button::new(strings::compare::compare_as(side.letter()));
-            if ui.add_enabled(can_go && !is_there, button).clicked() {
-                assigned = Some(CompareCommand::Assign(side, texture.key));
-            }
-        }
-    });
-    asked.map(Command::Edit).or(assigned.map(Command::Compare))
 }
 
 /// Row of snapshot buttons: numbers in the colors of their textures.
@@ -199,7 +133,7 @@ fn snapshots_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             if response.clicked() {
                 commands.push(Command::Edit(Edit::RestoreSnapshot(index)));
             }
-            response.context_menu(|ui| {
+            context_menu(&response, |ui| {
                 if ui.button(words::AS_OWN).on_hover_text(words::AS_OWN_HELP).clicked() {
                     commands.push(Command::Edit(Edit::Author(of_snapshot(panel, snapshot, index + 1))));
                 }

@@ -15,7 +15,7 @@ const ROW_HEIGHT: f32 = 24.0;
 
 /// Draws the mode and its options; returns the requested command.
 pub fn blend_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
-    let chosen = mode_ui(ui, panel.project.texture().blend.mode);
+    let chosen = mode_ui(ui, panel.inspected().blend.mode);
     let size = vec2(ui.available_width(), ROW_HEIGHT);
     let row = ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.set_min_height(ROW_HEIGHT);
@@ -72,7 +72,7 @@ fn mode_ui(ui: &mut Ui, mode: Mode) -> Option<Edit> {
 
 /// Draws the options of the selected mode.
 fn options_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Edit> {
-    let blending = &panel.project.texture().blend;
+    let blending = &panel.inspected().blend;
     match blending.mode {
         Mode::Field => {
             let mut is_beyond = blending.outside == Outside::Extrapolated;

@@ -1,5 +1,7 @@
 //! Canvas of the space: textures, triangulation, convex hull and the draggable authored points.
 
+mod canvas_menu;
+mod drop_ui;
 mod map;
 mod path_tool;
 mod points_ui;
@@ -10,13 +12,15 @@ mod tool_bar;
 mod view;
 
 use egui::{
-    Align2, FontId, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo,
-    pos2, vec2,
+    Align2, FontId, PointerButton, Popup, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 use shagreen_core::space::authoring::Weights;
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::blend::Mode;
 
+use self::canvas_menu::canvas_menu;
+use self::drop_ui::drop_ui;
 pub use self::map::ShownMap;
 use self::map::map_ui;
 pub use self::path_tool::PathTool;
@@ -110,7 +114,9 @@ pub fn canvas_ui(
     if let Some(guess) = guess {
         ellipse_ui(ui, axes, guess, t);
     }
-    let clicked_at = background.interact_pointer_pos().filter(|_| background.clicked());
+    // A click beside an open menu only closes it.
+    let is_click = background.clicked() && !Popup::is_any_open(ui.ctx());
+    let clicked_at = background.interact_pointer_pos().filter(|_| is_click);
     if tool.is_on {
         commands.extend(tool.follow(ui, axes, panel, &background));
     } else if let Some(pos) = dragged_by_primary(ui, &background).or(clicked_at) {
@@ -134,6 +140,8 @@ pub fn canvas_ui(
     commands.extend(bar.commands);
     state.view = bar.view.unwrap_or(state.view);
     state.bar_height = bar.height;
+    commands.extend(drop_ui(ui, axes, outer, panel, t));
+    commands.extend(canvas_menu(&background, axes, panel, map));
     let asks_for_path = state.tool.is_on && panel.project.texture().path.is_none();
     foot_ui(ui, axes, panel, asks_for_path, t);
     commands

@@ -10,7 +10,7 @@ use egui::{
 use shagreen_formats::picture::Picture;
 use shagreen_formats::project::AuthoredTexture;
 
-use crate::author::authored_panel::copy_of;
+use crate::author::new_texture::copy_of;
 use crate::command::Command;
 use crate::look::theme::{GAP, tokens};
 use crate::panel::Panel;

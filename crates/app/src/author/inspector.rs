@@ -1,4 +1,7 @@
-//! Inspector of the selected authored texture: name, sliders, interpolation mode and contributions.
+//! Inspector of an authored texture: name, sliders, interpolation mode and contributions.
+//!
+//! It shows the selected texture. While a comparison plays another one, it shows that one, which cannot be edited: edits
+//! apply to the selected texture.
 
 use egui::{Label, Rect, RichText, Role, Sense, Slider, TextEdit, Ui, WidgetInfo, vec2};
 use shagreen_core::space::SpacePoint;
@@ -12,13 +15,19 @@ use crate::author::texture_picture::picture_ui;
 use crate::command::Command;
 use crate::look::theme::{GAP, GROUP_GAP, RADIUS, tokens};
 use crate::panel::Panel;
+use crate::state::compare::{CompareCommand, Side};
 use crate::state::edit::Edit;
-use crate::strings;
+use crate::strings::{self, compare as words};
 
 /// Height of the bar of all contributing textures, in points.
 const SHARES_HEIGHT: f32 = 6.0;
 /// Height of the heading of the contributions, in points.
 const HEADING_HEIGHT: f32 = 18.0;
+
+/// Widget id of the field with the name of the texture.
+pub(crate) fn name_field() -> egui::Id {
+    egui::Id::unique("name of the authored texture")
+}
 
 /// Draws the inspector; returns the requested commands.
 pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
@@ -29,13 +38,61 @@ pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
 fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
     ui.add_space(GAP);
-    let mut name = panel.project.texture().name.clone();
+    if let Some(side) = panel.compare.heard() {
+        commands.extend(compared_ui(ui, panel, side));
+        if panel.compare.is_hidden() {
+            return commands;
+        }
+    }
+    let asked = ui.add_enabled_ui(panel.can_edit(), |ui| settings_ui(ui, panel)).inner;
+    if panel.can_edit() {
+        // A screen reader may set a slider that is not enabled.
+        commands.extend(asked);
+    }
+    ui.add_space(GROUP_GAP);
+    commands.extend(parents_ui(ui, panel));
+    commands
+}
+
+/// Draws which side of the comparison is audible, with a button that ends the comparison. It selects the audible texture,
+/// unless the comparison is blind.
+fn compared_ui(ui: &mut Ui, panel: &Panel<'_>, side: Side) -> Option<Command> {
+    let mut asked = None;
+    let row = vec2(ui.available_width(), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(row, egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        let texture = panel.inspected();
+        let is_hidden = panel.compare.is_hidden();
+        let (name, help) =
+            if is_hidden { (words::END, words::END_HELP) } else { (words::EDIT, words::EDIT_HELP) };
+        if ui.button(name).on_hover_text(help).clicked() {
+            // To select the audible texture ends the comparison, like every edit.
+            asked = Some(if is_hidden || panel.can_edit() {
+                Command::Compare(CompareCommand::Hear(side))
+            } else {
+                Command::Edit(Edit::Select(texture.key))
+            });
+        }
+        let said =
+            if is_hidden { words::HIDDEN.to_owned() } else { words::you_hear(side.letter(), &texture.name) };
+        ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+            let text = RichText::new(&said).color(tokens(ui.ctx()).accent);
+            ui.add(Label::new(text).truncate().selectable(false)).on_hover_text(&said);
+        });
+    });
+    ui.add_space(GAP);
+    asked
+}
+
+/// Draws the name, the sliders and the interpolation mode.
+fn settings_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let mut commands = Vec::new();
+    let mut name = panel.inspected().name.clone();
     let row = vec2(ui.available_width(), ui.spacing().interact_size.y);
     ui.allocate_ui_with_layout(row, egui::Layout::right_to_left(egui::Align::Center), |ui| {
         commands.extend(details_ui(ui, panel));
         let field =
             TextEdit::singleline(&mut name).font(egui::TextStyle::Heading).desired_width(f32::INFINITY);
-        let field = ui.add(field);
+        let field = ui.add(field.id(name_field()));
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::NAME));
         if field.changed() {
             commands.push(Command::Edit(Edit::Rename(name)));
@@ -45,15 +102,13 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     commands.extend(sliders(ui, panel));
     ui.add_space(GROUP_GAP);
     commands.extend(blend_ui(ui, panel));
-    ui.add_space(GROUP_GAP);
-    commands.extend(parents_ui(ui, panel));
     commands
 }
 
 /// Sliders of the two axes. They show the authored point and move it.
 fn sliders(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
-    let SpacePoint { mut rough_smooth, mut hard_soft } = panel.project.texture().at;
+    let SpacePoint { mut rough_smooth, mut hard_soft } = panel.inspected().at;
     let [across, up] = panel.session.poles();
     let mut is_changed = false;
     for (axis, value, ends) in [(0, &mut rough_smooth, across), (1, &mut hard_soft, up)] {
@@ -144,7 +199,8 @@ fn besides(panel: &Panel<'_>) -> Option<String> {
     Some(strings::more_parents(rest.len()))
 }
 
-/// Card of a contributing texture, with a solo button and, in the Field mode, a pin button.
+/// Card of a contributing texture. With the texture that can be edited, it has a solo button and, in the Field mode, a pin
+/// button.
 fn card(
     ui: &mut Ui,
     panel: &Panel<'_>,
@@ -177,10 +233,13 @@ fn card(
     );
     // The pin button does not move with the width of the number.
     let button = Rect::from_center_size(egui::pos2(right - 66.0, number.center().y), vec2(22.0, 22.0));
-    let can_lock = panel.project.texture().blend.can_lock() && panel.solo().is_none();
+    let can_edit = panel.can_edit();
+    let can_lock = can_edit && panel.project.texture().blend.can_lock() && panel.solo().is_none();
     let mut command = if can_lock { lock_button(ui, panel, texture, button) } else { None };
     let solo = button.translate(vec2(-24.0, 0.0));
-    command = command.or(solo_button(ui, panel, texture, solo));
+    if can_edit {
+        command = command.or(solo_button(ui, panel, texture, solo));
+    }
     let end = solo.left() - 4.0;
     let mut name = ui.new_child(
         egui::UiBuilder::new()

@@ -1,11 +1,12 @@
 //! Stroke pad: the texture is stroked with mouse or pen, by the automatic stroke, or by a recorded stroke.
 
 mod controls_ui;
+mod pad_menu;
 mod trail_ui;
 
 use egui::{
-    Align2, CursorIcon, Event, FontId, Pos2, Rect, Role, Sense, Stroke, TouchPhase, Ui, WidgetInfo, pos2,
-    vec2,
+    Align2, CursorIcon, Event, FontId, PointerButton, Pos2, Rect, Role, Sense, Stroke, TouchPhase, Ui,
+    WidgetInfo, pos2, vec2,
 };
 use shagreen_core::units::{Contact, MetersPerSecond, Newtons};
 use shagreen_device::controls::Input;
@@ -14,10 +15,12 @@ use shagreen_device::repeat::Repeat;
 use shagreen_device::touch::Touch;
 
 use crate::author::pad::controls_ui::controls_ui;
+use crate::author::pad::pad_menu::pad_menu;
 use crate::author::pad::trail_ui::{LiveTrail, trail_ui};
 use crate::command::Command;
 use crate::look::drag::dragged_to;
 use crate::look::theme::{RADIUS, tokens};
+use crate::look::tooltips::{Hint, is_learned, learn};
 use crate::panel::Panel;
 use crate::session::Session;
 use crate::state::mouse_report::MouseReport;
@@ -145,15 +148,25 @@ pub fn pad_ui(
         let force_n = state.hand.force_n * (scrolled * 0.0015).exp();
         state.hand.force_n = force_n.clamp(*FORCES_N.start(), *FORCES_N.end());
     }
-    let pressed = response.is_pointer_button_down_on();
+    // The secondary button opens the menu and strokes nothing.
+    let is_secondary = ui.input(|i| {
+        let secondary = PointerButton::Secondary;
+        let is_primary = i.pointer.primary_down() || i.pointer.primary_released();
+        !is_primary && (i.pointer.button_down(secondary) || i.pointer.button_released(secondary))
+    });
+    let pressed = response.is_pointer_button_down_on() && !is_secondary;
     let held_at = response.interact_pointer_pos().filter(|_| pressed || response.clicked());
-    if let Some(pos) = dragged_to(ui, &response).or(held_at) {
+    if let Some(pos) = dragged_to(ui, &response).or(held_at).filter(|_| !is_secondary) {
         let from_middle = (pos - area.center()) / (POINTS_PER_MM * 1e3);
         let (x_m, y_m) = (f64::from(from_middle.x), f64::from(-from_middle.y));
+        learn(ui.ctx(), Hint::StrokePad);
         outcome.mouse = Some(MouseReport { x_m, y_m, pressed, pressure: state.pressure });
+        // The output reports the tip after this frame, and a pointer that rests asks for none.
+        ui.ctx().request_repaint();
     }
+    outcome.commands.extend(pad_menu(&response, panel));
     let response = response.on_hover_cursor(CursorIcon::Crosshair);
-    if panel.session.touch().contact.force_n <= 0.0 {
+    if panel.session.touch().contact.force_n <= 0.0 && !is_learned(ui.ctx(), Hint::StrokePad) {
         response.on_hover_text(strings::PAD_HELP);
     }
     outcome

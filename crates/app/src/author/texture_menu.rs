@@ -5,6 +5,8 @@ use std::sync::Arc;
 use egui::{Button, Ui};
 use shagreen_formats::library::{Library, TextureEntry, free_id, free_name, id_from_name};
 
+use crate::author::context_menu::menu_entry;
+use crate::author::exact::{authored_exactly, taken};
 use crate::author::locks::{can_lock, lock_entry};
 use crate::command::Command;
 use crate::panel::Panel;
@@ -25,6 +27,16 @@ pub(crate) fn texture_menu(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Op
     }
     if ui.button(words::HEAR_ALONE).on_hover_text(words::HEAR_ALONE_HELP).clicked() {
         asked = Some(Command::Edit(Edit::Solo(Some(id()))));
+    }
+    for (name, help, edit) in [
+        (words::CHOOSE, words::CHOOSE_HELP, taken(panel, texture)),
+        (words::AUTHOR, words::AUTHOR_HELP, authored_exactly(panel, texture)),
+    ] {
+        if let Some(edit) = edit {
+            asked = menu_entry(ui, name, help, Command::Edit(edit)).or(asked);
+        } else {
+            ui.add_enabled(false, Button::new(name)).on_disabled_hover_text(words::NO_POSITION);
+        }
     }
     ui.separator();
     let star = if panel.is_starred(texture) { words::UNSTAR } else { words::STAR };

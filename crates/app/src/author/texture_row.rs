@@ -6,7 +6,9 @@ use egui::{
 };
 use shagreen_formats::library::{Provenance, TextureEntry};
 
+use crate::author::context_menu::context_menu;
 use crate::author::locks::lock_mark;
+use crate::author::texture_drag::{follow_row_drag, row_sense};
 use crate::author::texture_menu::{starred, texture_menu};
 use crate::author::texture_picture::{picture_ui, place_in_words};
 use crate::command::Command;
@@ -33,13 +35,14 @@ pub(crate) fn texture_row(ui: &mut Ui, panel: &Panel<'_>, texture: usize, is_new
     // Ids depend on the texture: a star moves the row, and the keyboard focus moves with it.
     let id = |part: &str| ui.scope_id().with((part, entry.id.as_str()));
     let (more_id, star_id) = (id("more"), id("star"));
-    let response = ui.interact(area, id("texture"), Sense::click());
+    let response = ui.interact(area, id("texture"), row_sense(ui));
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::texture(&entry.name)));
     let is_visible = ui.is_rect_visible(area);
     let has_inner_focus = ui.memory(|memory| memory.has_focus(more_id) || memory.has_focus(star_id));
     if response.gained_focus() || is_new || (has_inner_focus && !is_visible) {
         response.scroll_to_me(None);
     }
+    follow_row_drag(&response, &entry.id);
     let mut commands = Vec::new();
     if response.clicked() {
         let place = panel.session.space().position(texture);
@@ -72,7 +75,7 @@ pub(crate) fn texture_row(ui: &mut Ui, panel: &Panel<'_>, texture: usize, is_new
         end = star_area.left();
     }
     text_ui(ui, panel, texture, area, end);
-    response.context_menu(|ui| commands.extend(texture_menu(ui, panel, texture)));
+    context_menu(&response, |ui| commands.extend(texture_menu(ui, panel, texture)));
     response.on_hover_text(help(panel, texture));
     commands
 }

@@ -1,6 +1,9 @@
 //! Commands of the Signals workspace.
 
+use std::sync::Arc;
+
 use crate::choices::signals::{FromA, Slot};
+use crate::state::bench_signal::BenchSignal;
 use crate::state::source::Source;
 
 /// Command of the Signals workspace.
@@ -22,4 +25,6 @@ pub enum SignalsCommand {
     MakeB(FromA),
     /// Adds a signal to the list of textures, as a relief.
     Keep(Slot),
+    /// Notes that a signal was exported, so that leaving it loses nothing.
+    NoteExported(Arc<BenchSignal>),
 }

@@ -4,11 +4,11 @@ use egui::{
     Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
     WidgetInfo, pos2, vec2,
 };
-use egui_plot::{AxisHints, GridInput, GridMark, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
+use egui_plot::{GridInput, GridMark, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
 use shagreen_formats::figure::{Chart, Mark, Point, Scale, Series, Tone};
 
 use crate::look::label_places::{Placed, Wish, label_places, remembered_places};
-use crate::look::plot::fixed;
+use crate::look::plot::{fixed, x_axis, y_axis};
 use crate::look::theme::{GAP, Tokens, tokens, tone_color};
 
 /// Radius of a dot in points.
@@ -22,15 +22,13 @@ pub(crate) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
     legend_ui(ui, chart, t);
     let [x, y] = chart.bounds();
     // Numbers are as close together as is legible.
-    let across = AxisHints::new_x().label(RichText::new(&chart.x_label).small());
-    let mut across = across.label_spacing(Rangef::new(34.0, 46.0));
+    let mut across = x_axis().label(RichText::new(&chart.x_label).small());
     let scale = chart.x_scale;
     if scale == Scale::Logarithmic {
         across =
             across.formatter(move |mark, _| format!("{}", round_to_digits(scale.coordinate(mark.value))));
     }
-    let up = AxisHints::new_y().label(RichText::new(&chart.y_label).small());
-    let up = up.label_spacing(Rangef::new(16.0, 20.0));
+    let up = y_axis().label(RichText::new(&chart.y_label).small());
     let mut plot = fixed(Plot::new(name.to_owned()), t.line)
         .custom_x_axes(vec![across])
         .custom_y_axes(vec![up])

@@ -1,24 +1,22 @@
 //! Plot of a map: a value over two axes as colors.
 
-use egui::{
-    ColorImage, Id, Label, Rangef, Rect, RichText, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2,
-};
+use egui::{ColorImage, Id, Label, Rect, RichText, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
 use egui_plot::{AxisHints, Plot, PlotImage, PlotPoint, PlotResponse, uniform_grid_spacer};
 use shagreen_formats::figure::Map;
 
-use crate::look::plot::{fixed, nice_step};
+use crate::look::plot::{fixed, nice_step, x_axis, y_axis};
 use crate::look::theme::{map_color, tokens};
 
 /// Draws a map into the available space; `name` is its id.
 pub(crate) fn map_plot(ui: &mut Ui, name: &str, map: &Map) -> PlotResponse<()> {
-    show(ui, name, map, AxisHints::new_x(), AxisHints::new_y())
+    show(ui, name, map, x_axis(), y_axis())
 }
 
 /// Same as [`map_plot`], with axis labels.
 pub(crate) fn labeled_map_plot(ui: &mut Ui, name: &str, map: &Map) -> PlotResponse<()> {
     let label = |text: &str| RichText::new(text).small();
-    let across = AxisHints::new_x().label(label(&map.x_label));
-    show(ui, name, map, across, AxisHints::new_y().label(label(&map.y_label)))
+    let across = x_axis().label(label(&map.x_label));
+    show(ui, name, map, across, y_axis().label(label(&map.y_label)))
 }
 
 /// Draws the color key of a map in a row: lowest value, colors, highest value.
@@ -47,7 +45,7 @@ fn show(ui: &mut Ui, name: &str, map: &Map, across: AxisHints<'_>, up: AxisHints
     let (x, y) = (map.x, map.y);
     // At least five numbers.
     let step = nice_step(0.4 * (x.1 - x.0));
-    let across = across.label_spacing(Rangef::new(30.0, 40.0)).formatter(move |mark, _| {
+    let across = across.formatter(move |mark, _| {
         // The lowest number of the other axis is at the start of this one. Rounding removes binary fractions of tenths.
         if mark.value <= x.0 { String::new() } else { format!("{}", (mark.value * 1e6).round() / 1e6 + 0.0) }
     });

@@ -1,7 +1,7 @@
 //! Common parts of all plots in the window.
 
-use egui::{Color32, Label, RichText, Ui, vec2};
-use egui_plot::Plot;
+use egui::{Color32, Label, Rangef, RichText, Sense, Ui, vec2};
+use egui_plot::{AxisHints, Plot};
 
 use crate::look::theme::tokens;
 
@@ -14,9 +14,26 @@ pub(crate) fn title(ui: &mut Ui, text: &str, unit: &str) {
     });
 }
 
-/// Plot that the pointer cannot move or zoom.
+/// Distances between labels of the horizontal and of the vertical axis up to which they are hidden and from which they
+/// are shown, in points. In between they would be translucent, and hard to read.
+const LABEL_SPACINGS: [Rangef; 2] = [Rangef { min: 33.0, max: 34.0 }, Rangef { min: 16.0, max: 17.0 }];
+
+/// Horizontal axis whose labels are opaque.
+pub(crate) fn x_axis<'a>() -> AxisHints<'a> {
+    AxisHints::new_x().label_spacing(LABEL_SPACINGS[0])
+}
+
+/// Vertical axis whose labels are opaque.
+pub(crate) fn y_axis<'a>() -> AxisHints<'a> {
+    AxisHints::new_y().label_spacing(LABEL_SPACINGS[1])
+}
+
+/// Plot that the pointer cannot move or zoom, and the Tab key does not reach.
 pub(crate) fn fixed(plot: Plot<'_>, grid: Color32) -> Plot<'_> {
     plot.grid_color(grid)
+        .sense(Sense::hover())
+        .custom_x_axes(vec![x_axis()])
+        .custom_y_axes(vec![y_axis()])
         .show_crosshair(false)
         .allow_drag(false)
         .allow_zoom(false)

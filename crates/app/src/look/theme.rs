@@ -109,6 +109,8 @@ pub const LIGHT: Tokens = Tokens {
     error: Color32::from_rgb(0xB3, 0x2D, 0x20),
 };
 
+/// Time for which the pointer rests before a tooltip appears, in seconds.
+pub(crate) const TOOLTIP_DELAY_SECS: f32 = 0.6;
 /// Distance between related items, in points.
 pub const GAP: f32 = 6.0;
 /// Distance between groups, in points.
@@ -212,7 +214,9 @@ fn style(t: &Tokens, mut visuals: Visuals) -> Style {
     style.spacing.interact_size.y = 24.0;
     style.spacing.slider_rail_height = 5.0;
     style.spacing.window_margin = Margin::same(10);
-    style.interaction.tooltip_delay = 0.4;
+    style.interaction.tooltip_delay = TOOLTIP_DELAY_SECS;
+    // Without a grace time, every tooltip waits until the pointer rests.
+    style.interaction.tooltip_grace_time = 0.0;
     style
 }
 

@@ -7,12 +7,12 @@ use shagreen_core::space::LabelSource;
 use shagreen_core::space::authoring::Authored;
 use shagreen_core::space::texture_path::TexturePath;
 use shagreen_core::units::{Contact, Hertz};
-use shagreen_formats::library::{Provenance, TextureEntry};
+use shagreen_device::track::Track;
+use shagreen_formats::library::{Library, Provenance, TextureEntry};
 use shagreen_formats::project::{AuthoredTexture, Project};
 use shagreen_formats::wav::{ParentV1, SidecarV1};
 
 use super::Session;
-use crate::session::audible::plane_of;
 use crate::session::kept_path::drawn_path;
 use crate::state::bench_signal::BenchSignal;
 use crate::state::document::CREATED_BY;
@@ -57,65 +57,19 @@ impl Session {
             (Sounding::Mix(voices.collect(), self.sound.heard.mixing), authored.parents.clone())
         };
         let texture = alone.map(|texture| self.textures.library.textures[texture].id.clone());
-        let file = self.signal_of(authored, sounding, &parents, contact);
+        let file = self.signal_context(contact).signal(authored, sounding, &parents);
         let sidecar = SidecarV1 { texture, ..file.sidecar };
         Ok(SignalFile { sidecar: placed(sidecar, place), ..file })
     }
 
-    /// Signals of all authored textures at one contact, with their names: the blend at each point.
-    ///
-    /// # Errors
-    /// States why there are none: a blind comparison hides them, or they are still being computed.
-    pub fn authored_signals(
-        &self,
-        project: &Project,
-        contact: Contact,
-    ) -> Result<Vec<(String, SignalFile)>, String> {
-        if self.authored().is_none() {
-            return Err(strings::NOTHING.to_owned());
-        }
-        if self.is_preparing() {
-            return Err(strings::PREPARING.to_owned());
-        }
-        let of = |texture: &Arc<AuthoredTexture>| {
-            let authored = self.authoring().author(texture.at, &self.blending(&texture.blend))?;
-            let voices = authored.voices().into_iter();
-            let voices = voices.map(|(voice, share)| (plane_of(voice, &self.textures.planes), share));
-            let sounding = Sounding::Mix(voices.collect(), authored.mixing());
-            let file = self.signal_of(&authored, sounding, &authored.parents, contact);
-            let sidecar = placed(file.sidecar, Some(&authored));
-            Some((texture.name.clone(), SignalFile { sidecar, ..file }))
-        };
-        Ok(project.authored.iter().filter_map(of).collect())
-    }
-
-    /// A signal of an authored texture, whose contributing textures are named in its sidecar.
-    fn signal_of(
-        &self,
-        authored: &Authored,
-        sounding: Sounding,
-        parents: &[(usize, f64)],
-        contact: Contact,
-    ) -> SignalFile {
-        let library = &self.textures.library;
-        let named = |(texture, weight): &(usize, f64)| ParentV1::new(library, *texture, *weight);
-        let sidecar = SidecarV1 {
-            blend: authored.mode.id().to_owned(),
-            library: library.name.clone(),
-            label_source: self.common_source().map(|source| LabelSource::id(source).to_owned()),
-            parents: parents.iter().map(named).collect(),
-            ..SidecarV1::new(SIGNAL_RATE_HZ, SIGNAL_SECS, SIGNAL_SEED, CREATED_BY)
-        };
-        let entries = parents.iter().map(|(texture, _)| &library.textures[*texture]);
-        let restricted = entries.filter(|entry| entry.provenance == Provenance::Restricted);
-        SignalFile {
-            sounding,
-            contact,
+    /// What all signals at one contact have in common.
+    pub(super) fn signal_context(&self, contact: Contact) -> SignalContext<'_> {
+        SignalContext {
+            library: &self.textures.library,
+            source: self.common_source(),
             stroke: self.stroke().map(RecordedStroke::shared_track),
-            tap: authored.tap(|texture| library.textures[texture].model.tap()),
             model_rate: Hertz(self.sound.rate_hz),
-            sidecar,
-            restricted: restricted.map(|entry| entry.name.clone()).collect(),
+            contact,
         }
     }
 
@@ -137,12 +91,8 @@ impl Session {
         if self.is_preparing() {
             return Err(strings::PREPARING.to_owned());
         }
-        let model = authored.model.clone().ok_or(strings::NO_MODEL)?;
-        // Far beyond the textures, a blend may be what no file may hold.
-        model.check_stable().map_err(|error| error.to_string())?;
         let name = &compared.unwrap_or(project.texture()).name;
-        let parents: Vec<usize> = authored.parents.iter().map(|(texture, _)| *texture).collect();
-        Ok(self.textures.library.entry_of_point(name, authored.location.at, model, &parents))
+        entry_of(&self.textures.library, name, authored)
     }
 
     /// Textures that contribute along a path, and their mean weights, largest first.
@@ -162,6 +112,59 @@ impl Session {
     }
 }
 
+/// What all signals of a session at one contact have in common.
+pub(super) struct SignalContext<'a> {
+    pub(super) library: &'a Library,
+    /// Common source of the positions.
+    pub(super) source: Option<LabelSource>,
+    pub(super) stroke: Option<Arc<Track>>,
+    pub(super) model_rate: Hertz,
+    pub(super) contact: Contact,
+}
+
+impl SignalContext<'_> {
+    /// A signal of an authored texture, whose contributing textures are named in its sidecar.
+    pub(super) fn signal(
+        &self,
+        authored: &Authored,
+        sounding: Sounding,
+        parents: &[(usize, f64)],
+    ) -> SignalFile {
+        let library = self.library;
+        let named = |(texture, weight): &(usize, f64)| ParentV1::new(library, *texture, *weight);
+        let sidecar = SidecarV1 {
+            blend: authored.mode.id().to_owned(),
+            library: library.name.clone(),
+            label_source: self.source.map(|source| LabelSource::id(source).to_owned()),
+            parents: parents.iter().map(named).collect(),
+            ..SidecarV1::new(SIGNAL_RATE_HZ, SIGNAL_SECS, SIGNAL_SEED, CREATED_BY)
+        };
+        let entries = parents.iter().map(|(texture, _)| &library.textures[*texture]);
+        let restricted = entries.filter(|entry| entry.provenance == Provenance::Restricted);
+        SignalFile {
+            sounding,
+            contact: self.contact,
+            stroke: self.stroke.clone(),
+            tap: authored.tap(|texture| library.textures[texture].model.tap()),
+            model_rate: self.model_rate,
+            sidecar,
+            restricted: restricted.map(|entry| entry.name.clone()).collect(),
+        }
+    }
+}
+
+/// An authored texture as a library entry.
+///
+/// # Errors
+/// The interpolation mode computes no texture, or no file can hold it.
+pub(super) fn entry_of(library: &Library, name: &str, authored: &Authored) -> Result<TextureEntry, String> {
+    let model = authored.model.clone().ok_or(strings::NO_MODEL)?;
+    // Far beyond the textures, a blend may be what no file may hold.
+    model.check_stable().map_err(|error| error.to_string())?;
+    let parents: Vec<usize> = authored.parents.iter().map(|(texture, _)| *texture).collect();
+    Ok(library.entry_of_point(name, authored.location.at, model, &parents))
+}
+
 /// Signal of the Signals workspace at its own speed and force.
 fn of_bench(signal: &Arc<BenchSignal>) -> SignalFile {
     let contact = Contact { speed: signal.speed, force: signal.force };
@@ -173,7 +176,7 @@ fn of_bench(signal: &Arc<BenchSignal>) -> SignalFile {
 }
 
 /// The sidecar with the point of an authored texture.
-fn placed(sidecar: SidecarV1, authored: Option<&Authored>) -> SidecarV1 {
+pub(super) fn placed(sidecar: SidecarV1, authored: Option<&Authored>) -> SidecarV1 {
     let Some(authored) = authored else { return sidecar };
     let at = authored.location.at;
     SidecarV1 {

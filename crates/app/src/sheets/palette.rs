@@ -83,7 +83,9 @@ fn list_ui(ui: &mut Ui, rows: &[Row], selected: usize) -> Option<usize> {
                 ui.label(RichText::new(strings::NO_COMMAND).color(t.text_weak));
             }
             for (index, row) in rows.iter().enumerate() {
-                let button = Button::selectable(index == selected, &row.label).shortcut_text(&row.keys);
+                let keys_color = if index == selected { t.on_chosen } else { t.text_weak };
+                let keys = RichText::new(&row.keys).color(keys_color);
+                let button = Button::selectable(index == selected, &row.label).shortcut_text(keys);
                 let button = button.min_size(egui::vec2(ui.available_width(), 0.0));
                 let response = ui.add(button).accessible_name(&row.label);
                 if index == selected {
@@ -106,7 +108,7 @@ fn all(ctx: &Context) -> Vec<Row> {
         Some(Row { command, label: entry.label.to_owned(), keys })
     };
     let export = |format: &'static dyn ExportFormat| Row {
-        command: Command::File(FileCommand::ExportTexture(format.id())),
+        command: Command::File(FileCommand::Export(format.id())),
         label: strings::export_as(format.name()),
         keys: String::new(),
     };

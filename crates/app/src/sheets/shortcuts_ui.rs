@@ -10,6 +10,9 @@ use crate::strings::help as strings;
 /// Width of the sheet, in points: it fits into a small window.
 const WIDTH: f32 = 860.0;
 
+/// Width at which a description is wrapped, in points.
+const LABEL_WIDTH: f32 = 270.0;
+
 /// Draws the sheet; returns the requested command.
 pub(crate) fn shortcuts_ui(ctx: &Context) -> Option<Command> {
     let t = tokens(ctx);
@@ -28,7 +31,11 @@ pub(crate) fn shortcuts_ui(ctx: &Context) -> Option<Command> {
         // In two columns, so that a low window shows them all.
         ui.columns(2, |columns| {
             for (side, part) in all.chunks(all.len().div_ceil(2)).enumerate() {
-                let grid = Grid::new(("shortcuts", side)).num_columns(2).spacing([16.0, 3.0]).striped(true);
+                let grid = Grid::new(("shortcuts", side))
+                    .num_columns(2)
+                    .max_col_width(LABEL_WIDTH)
+                    .spacing([16.0, 3.0])
+                    .striped(true);
                 grid.show(&mut columns[side], |ui| {
                     for (keys, what) in part {
                         ui.label(RichText::new(keys).monospace().color(t.accent));

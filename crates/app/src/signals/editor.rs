@@ -136,7 +136,8 @@ impl Editor {
             spectra.paint(&brush, step_m, *place_m, *per_m);
         }
         // A stroke is one undo step, until the brush is lifted.
-        let painted = self.take(signal, spectra, self.last_touch.is_none(), strings::BRUSH_STROKE)?;
+        let what = if self.tool == Tool::Softer { strings::ATTENUATING } else { strings::AMPLIFYING };
+        let painted = self.take(signal, spectra, self.last_touch.is_none(), what)?;
         self.last_touch = Some(*last);
         Ok(Some(painted))
     }

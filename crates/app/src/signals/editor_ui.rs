@@ -9,18 +9,10 @@ use crate::choices::signals::Tool;
 use crate::look::theme::{GROUP_GAP, tokens};
 use crate::strings::signals as strings;
 
-/// Action requested from the tools.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Asked {
-    Stretch,
-    Undo,
-    Redo,
-}
-
-/// Draws the tools; returns an action that is performed at once.
-pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Asked> {
+/// Draws the tools; returns whether B is to be stretched.
+pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> bool {
     let t = tokens(ui.ctx());
-    let mut asked = None;
+    let mut is_stretched = false;
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let words = RichText::new(strings::PAINT_B).color(t.text_weak);
@@ -46,21 +38,9 @@ pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> Option<Asked> {
             number_ui(ui, strings::BRUSH_GAIN, strings::BRUSH_GAIN, strings::BRUSH_GAIN_HELP, gain);
         });
         ui.add_space(GROUP_GAP);
-        if ui.button(strings::STRETCH).on_hover_text(strings::STRETCH_HELP).clicked() {
-            asked = Some(Asked::Stretch);
-        }
+        is_stretched = ui.button(strings::STRETCH).on_hover_text(strings::STRETCH_HELP).clicked();
         let stretch = DragValue::new(&mut editor.stretch).range(STRETCHES).speed(0.02).prefix("× ");
         ui.add(stretch).accessible_name(strings::STRETCH_FACTOR).on_hover_text(strings::STRETCH_HELP);
-        ui.add_space(GROUP_GAP);
-        let [undo, redo] = editor.labels();
-        for (name, what, wanted) in
-            [(strings::UNDO_PAINTING, undo, Asked::Undo), (strings::REDO_PAINTING, redo, Asked::Redo)]
-        {
-            let button = ui.add_enabled(what.is_some(), Button::new(name));
-            if button.on_hover_text(what.unwrap_or(name)).clicked() {
-                asked = Some(wanted);
-            }
-        }
     });
-    asked
+    is_stretched
 }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use egui::{Align2, Color32, FontId, Grid, Label, Rect, RichText, Sense, Ui, pos2, vec2};
-use shagreen_core::signals::quality::Feature;
-use shagreen_formats::figure::{Figure, Table};
+use shagreen_core::signals::quality::{Feature, proportion_correct};
+use shagreen_formats::figure::Figure;
 
 use super::analysis::Compared;
 use super::slot_ui::slot_color;
@@ -12,22 +12,35 @@ use crate::choices::signals::Slot;
 use crate::command::Command;
 use crate::figure_ui::figure_head_ui;
 use crate::look::theme::{GAP, tokens};
-use crate::strings::signals as strings;
+use crate::strings::differences as strings;
+use crate::strings::digits::three_digits;
 
 /// Size of a bar, in points.
 const BAR: (f32, f32) = (74.0, 16.0);
 
-/// Draws the features of both signals, their distances, and the contribution of each distance to the predicted d'.
-pub(super) fn features_ui(ui: &mut Ui, compared: &Compared, figure: &Arc<Figure>) -> Option<Command> {
+/// Draws the names of both signals, the predicted d' in words, the features of both signals, their distances, and the
+/// contribution of each distance to d'.
+pub(super) fn features_ui(
+    ui: &mut Ui,
+    compared: &Compared,
+    names: [&str; 2],
+    figure: &Arc<Figure>,
+) -> Option<Command> {
     let t = tokens(ui.ctx());
     let save = figure_head_ui(ui, figure, "features");
     let Figure::Table(table) = &**figure else { return save };
+    for (slot, name) in Slot::ALL.into_iter().zip(names) {
+        let text = RichText::new(strings::named(slot, name)).color(slot_color(ui, slot));
+        ui.add(Label::new(text).wrap().selectable(false));
+    }
     let large = RichText::new(strings::d_prime(compared.d_prime)).heading().color(t.text);
     ui.horizontal(|ui| {
         ui.add(Label::new(large).selectable(false)).on_hover_text(strings::D_PRIME_HELP);
-        let said = strings::compared(compared.snr_db, compared.seconds);
-        ui.add(Label::new(RichText::new(said).small().color(t.text_weak)).wrap().selectable(false));
+        let answers = RichText::new(strings::answers(proportion_correct(compared.d_prime)));
+        ui.add(Label::new(answers).wrap().selectable(false)).on_hover_text(strings::D_PRIME_HELP);
     });
+    let said = strings::compared(compared.snr_db, compared.seconds);
+    ui.add(Label::new(RichText::new(said).small().color(t.text_weak)).wrap().selectable(false));
     ui.add_space(GAP);
     let most = compared.parts.iter().map(|(_, part)| *part).fold(1e-9, f64::max);
     Grid::new("features").num_columns(5).spacing([8.0, 6.0]).show(ui, |ui| {
@@ -38,28 +51,26 @@ pub(super) fn features_ui(ui: &mut Ui, compared: &Compared, figure: &Arc<Figure>
         }
         ui.end_row();
         for (feature, row) in Feature::ALL.into_iter().zip(&table.rows) {
-            row_ui(ui, feature, row, table, most);
+            row_ui(ui, feature, row, most);
             ui.end_row();
         }
     });
     save
 }
 
-fn row_ui(ui: &mut Ui, feature: Feature, row: &(String, Vec<Option<f64>>), table: &Table, most: f64) {
+fn row_ui(ui: &mut Ui, feature: Feature, (name, numbers): &(String, Vec<Option<f64>>), most: f64) {
     let t = tokens(ui.ctx());
-    let (name, numbers) = row;
     ui.add(Label::new(name).selectable(false).extend()).on_hover_text(strings::feature_help(feature));
     let [a, b] = Slot::ALL.map(|slot| slot_color(ui, slot));
     let range = range_of(feature);
     let of = |value: f64| range.map(|(low, high)| ((value - low) / (high - low)).clamp(0.0, 1.0) as f32);
     let number = |index: usize| numbers.get(index).copied().flatten();
-    bar(ui, &table.shown(number(0)), number(0).and_then(of), a);
-    bar(ui, &table.shown(number(1)), number(1).and_then(of), b);
-    let unit = feature.unit();
-    let distance = format!("{} {unit}", table.shown(number(2)));
-    ui.add(Label::new(RichText::new(distance.trim_end()).small()).selectable(false).extend());
+    let shown = |number: Option<f64>| number.map_or_else(|| strings::NONE.to_owned(), three_digits);
+    bar(ui, &shown(number(0)), number(0).and_then(of), a);
+    bar(ui, &shown(number(1)), number(1).and_then(of), b);
+    ui.add(Label::new(RichText::new(shown(number(2))).small()).selectable(false).extend());
     let part = number(3);
-    bar(ui, &table.shown(part), part.map(|part| (part / most) as f32), t.text_weak);
+    bar(ui, &shown(part), part.map(|part| (part / most) as f32), t.text_weak);
 }
 
 /// Range of the bar of a feature; `None` for features that are only compared.
@@ -80,7 +91,7 @@ fn bar(ui: &mut Ui, number: &str, share: Option<f32>, color: Color32) {
     if let Some(share) = share {
         ui.painter().rect_filled(area, 3.0, t.control);
         let full = Rect::from_min_max(area.min, pos2(area.left() + share * area.width(), area.bottom()));
-        ui.painter().rect_filled(full, 3.0, color.gamma_multiply(0.55));
+        ui.painter().rect_filled(full, 3.0, color.gamma_multiply(0.4));
     }
     let at = area.left_center() + vec2(6.0, 0.0);
     ui.painter().text(at, Align2::LEFT_CENTER, number, FontId::monospace(11.5), t.text);

@@ -7,6 +7,7 @@ use shagreen_formats::figure::{Chart, Figure, Map, Mark, Point, Scale, Series, T
 
 use super::analysis::{ByRate, Compared};
 use crate::state::bench_signal::BenchSignal;
+use crate::strings::differences;
 use crate::strings::signals as strings;
 
 /// Samples of a spectrogram window at [`TIME_RATE`]: 64 ms.
@@ -188,14 +189,14 @@ pub(super) fn features_figure(compared: &Compared, names: [&str; 2]) -> Figure {
     let row = |feature: Feature| {
         let numbers =
             vec![own(feature, 0), own(feature, 1), Some(compared.distances.by(feature)), part(feature)];
-        (strings::feature(feature), numbers)
+        (differences::feature(feature).to_owned(), numbers)
     };
     Figure::Table(Table {
-        title: strings::features_title(names, compared.d_prime),
-        columns: strings::FEATURE_COLUMNS.map(str::to_owned).to_vec(),
+        title: differences::features_title(compared.d_prime),
+        columns: differences::FEATURE_COLUMNS.map(str::to_owned).to_vec(),
         rows: Feature::ALL.into_iter().map(row).collect(),
         decimals: 3,
-        source: strings::PREDICTED.to_owned(),
+        source: differences::features_source(names),
     })
 }
 

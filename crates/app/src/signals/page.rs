@@ -51,6 +51,8 @@ pub struct SignalsPage {
     over: Option<String>,
     /// Name of the last texture that was kept.
     last_kept: Option<String>,
+    /// Signal that was exported last.
+    exported: Option<Arc<BenchSignal>>,
     /// Signal that is played at its own speed, regardless of the pen.
     playing: Option<Playing>,
     compared: Known<Result<Compared, String>, 2>,
@@ -69,6 +71,7 @@ impl Default for SignalsPage {
             felt: None,
             over: None,
             last_kept: None,
+            exported: None,
             playing: None,
             compared: Known::default(),
             maps: Maps::default(),
@@ -234,9 +237,18 @@ impl SignalsPage {
         self.editor.labels()
     }
 
-    /// Whether B was edited by hand, which no project keeps.
+    /// Whether B was edited by hand, which no project keeps, and was not exported since.
     pub(crate) fn has_unsaved_painting(&self) -> bool {
-        self.painting_labels()[0].is_some()
+        let is_exported = match (self.signal(Slot::B), &self.exported) {
+            (Some(signal), Some(exported)) => Arc::ptr_eq(signal, exported),
+            _ => false,
+        };
+        self.painting_labels()[0].is_some() && !is_exported
+    }
+
+    /// Notes that a signal was exported.
+    pub(crate) fn note_exported(&mut self, signal: Arc<BenchSignal>) {
+        self.exported = Some(signal);
     }
 
     /// Undoes the last change of B.

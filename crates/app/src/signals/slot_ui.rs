@@ -72,7 +72,7 @@ pub(super) fn place_ui(ui: &mut Ui, slot: Slot, place: &mut Place, state: State)
     asked
 }
 
-/// Draws the letter, the name, and the buttons that need a signal.
+/// Draws the letter and the buttons that need a signal, and the name below them.
 fn head_ui(ui: &mut Ui, slot: Slot, place: &Place, state: State, asked: &mut Asked) {
     let State { is_felt, is_playing } = state;
     let t = tokens(ui.ctx());
@@ -103,16 +103,16 @@ fn head_ui(ui: &mut Ui, slot: Slot, place: &Place, state: State, asked: &mut Ask
                 let play = Command::Signals(SignalsCommand::Play(slot));
                 asked.commands.push(if is_playing { Command::StopTone } else { play });
             }
-            let name = place.signal().map_or(strings::NOTHING_THERE, |signal| &signal.name);
-            let color = if has_signal { t.text } else { t.text_weak };
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                let label = Label::new(RichText::new(name).color(color)).truncate().selectable(false);
-                ui.add(label).on_hover_text(name);
-            });
         });
     });
+    // A row of its own: beside the buttons, two names of the same texture would be cut to the same words.
+    let name = place.signal().map_or(strings::NOTHING_THERE, |signal| &signal.name);
+    let color = if has_signal { t.text } else { t.text_weak };
+    let label = Label::new(RichText::new(name).color(color)).truncate().selectable(false);
+    ui.add(label.show_tooltip_when_elided(false)).on_hover_text(name);
 }
 
+/// Draws the facts of the signal. The row is there without a signal too, so that nothing below it moves.
 fn facts_ui(ui: &mut Ui, place: &Place) {
     let t = tokens(ui.ctx());
     let said = match place.signal() {
@@ -123,7 +123,7 @@ fn facts_ui(ui: &mut Ui, place: &Place) {
             signal.level_mps2(),
             signal.speed.mm_per_s(),
         ),
-        None => return,
+        None => " ".to_owned(),
     };
     ui.add(Label::new(RichText::new(said).small().color(t.text_weak)).truncate().selectable(false));
 }

@@ -5,10 +5,14 @@ use std::sync::mpsc::{Receiver, TryRecvError};
 
 use egui::Context;
 use shagreen_formats::bounded_file::{self, FileKind};
+use shagreen_formats::library::Library;
 use shagreen_formats::locked_update::update;
-use shagreen_formats::project::{Project, read_project, sha256_hex, write_project};
+use shagreen_formats::project::{
+    Project, ProjectError, ProjectLibrary, read_project, read_project_on, sha256_hex, write_project,
+};
 use shagreen_studio::file::{folder_of, one_line};
-use shagreen_studio::open::{Opened, open};
+use shagreen_studio::open::{Opened, open, open_on};
+use shagreen_studio::permitted_libraries::{OutsideLibrary, Permitted};
 
 use crate::state::background::in_background;
 use crate::state::conflict::{Conflict, differences};
@@ -29,13 +33,15 @@ pub struct DocumentFile {
 /// File of the open project.
 pub struct Document {
     file: Option<DocumentFile>,
+    /// Name of a project that has no file yet.
+    title: Option<&'static str>,
     /// Project as saved, or `None` if no file contains it.
     on_disk: Option<Project>,
     is_changed: bool,
     /// Revision of the project for which `is_changed` was computed.
     revision: Option<u64>,
     saving: Option<Saving>,
-    opening: Option<(Receiver<Result<Opened, String>>, PathBuf)>,
+    opening: Option<(Receiver<anyhow::Result<Opened>>, PathBuf)>,
 }
 
 /// Content that an existing file may have when it is replaced.
@@ -83,6 +89,13 @@ pub(crate) enum Came {
     NotSaved(String),
     /// This was opened from this file.
     Opened(Opened, PathBuf),
+    /// Nothing was opened, because the project names a library outside its folder that the user has not permitted.
+    Outside {
+        /// Path of the project.
+        project: PathBuf,
+        /// Path of the library.
+        library: PathBuf,
+    },
     /// Opening failed for this reason.
     NotOpened(String),
 }
@@ -90,19 +103,20 @@ pub(crate) enum Came {
 impl Document {
     /// Document of a new project, or of one that was read from `file`. It has no unsaved changes.
     pub(crate) fn new(project: &Project, file: Option<DocumentFile>) -> Self {
-        Self {
-            file,
-            on_disk: Some(project.clone()),
-            is_changed: false,
-            revision: None,
-            saving: None,
-            opening: None,
-        }
+        Self { on_disk: Some(project.clone()), is_changed: false, ..Self::unsaved(file) }
     }
 
     /// Document of a recovered project. No file contains it, although `file` may be its file.
     pub(crate) fn unsaved(file: Option<DocumentFile>) -> Self {
-        Self { file, on_disk: None, is_changed: true, revision: None, saving: None, opening: None }
+        Self {
+            file,
+            title: None,
+            on_disk: None,
+            is_changed: true,
+            revision: None,
+            saving: None,
+            opening: None,
+        }
     }
 
     /// Path of the file, if the project has one.
@@ -115,10 +129,16 @@ impl Document {
         self.file.as_ref()
     }
 
-    /// Name of the project, which is the file name without its ending.
+    /// Name of the project: the file name without its ending, or the title of a project that has no file yet.
     pub fn name(&self) -> String {
         let stem = self.path().and_then(Path::file_stem);
-        stem.map_or_else(|| strings::UNTITLED.to_owned(), |stem| stem.to_string_lossy().into_owned())
+        let title = || self.title.unwrap_or(strings::UNTITLED).to_owned();
+        stem.map_or_else(title, |stem| stem.to_string_lossy().into_owned())
+    }
+
+    /// Names the project until it has a file.
+    pub(crate) fn set_title(&mut self, title: &'static str) {
+        self.title = Some(title);
     }
 
     /// Whether there were unsaved changes in the last frame.
@@ -185,10 +205,16 @@ impl Document {
         self.saving = Some(Saving { outcome, project: project.clone(), path });
     }
 
-    /// Opens `path` in the background.
-    pub(crate) fn open(&mut self, path: PathBuf, ctx: &Context) {
+    /// Opens `path` in the background; a project may read the permitted libraries.
+    pub(crate) fn open(&mut self, path: PathBuf, permitted: Permitted, ctx: &Context) {
         let from = path.clone();
-        let work = move || open(&from).map_err(|error| one_line(&error));
+        self.opening = Some((in_background(ctx.clone(), move || open(&from, &permitted)), path));
+    }
+
+    /// Opens the project at `path` in the background, on this library or on the starter library.
+    pub(crate) fn open_on(&mut self, path: PathBuf, library: Option<PathBuf>, ctx: &Context) {
+        let from = path.clone();
+        let work = move || open_on(&from, library.as_deref()).map(|opened| Opened::Project(Box::new(opened)));
         self.opening = Some((in_background(ctx.clone(), work), path));
     }
 
@@ -219,31 +245,61 @@ impl Document {
         let (receiver, _) = self.opening.as_ref()?;
         let outcome = match receiver.try_recv() {
             Err(TryRecvError::Empty) => return None,
-            Err(TryRecvError::Disconnected) => Err(strings::BROKE_OFF.to_owned()),
+            Err(TryRecvError::Disconnected) => Err(anyhow::anyhow!(strings::BROKE_OFF)),
             Ok(outcome) => outcome,
         };
         let (_, path) = self.opening.take()?;
         Some(match outcome {
             Ok(read) => Came::Opened(read, path),
-            Err(reason) => Came::NotOpened(reason),
+            Err(error) => match error.downcast::<OutsideLibrary>() {
+                Ok(OutsideLibrary { library }) => Came::Outside { project: path, library },
+                Err(error) => Came::NotOpened(one_line(&error)),
+            },
         })
     }
 }
 
 /// Differences between the open project and the content of its changed file.
 fn conflict(path: &Path, base: Option<&Project>, here: &Project, present: &[u8]) -> Conflict {
-    let library = |library: &Path| bounded_file::read(library, FileKind::Document);
-    let read = |bytes: &[u8]| read_project(bytes, &folder_of(path), &library).ok().map(|read| read.value);
+    let folder = folder_of(path);
+    // Whoever changed the file may have named a library that the user has not permitted.
+    let open_libraries =
+        [Some(here), base].into_iter().flatten().filter_map(|project| match &project.library {
+            ProjectLibrary::File(file) => Some(file.path.clone()),
+            ProjectLibrary::BuiltIn(_) | ProjectLibrary::Inside(_) => None,
+        });
+    let permitted = Permitted::Only(open_libraries.collect());
+    let library = |library: &Path| {
+        let is_permitted = permitted.covers(library, &folder);
+        if is_permitted { bounded_file::read(library, FileKind::Document) } else { Err(unreadable()) }
+    };
+    let read = |bytes: &[u8]| match read_project(bytes, &folder, &library) {
+        Ok(read) => Some(read.value),
+        // An empty library differs from the open one, as the one that was not read does.
+        Err(ProjectError::LibraryFile { .. } | ProjectError::Network { .. }) => {
+            let empty = ProjectLibrary::Inside(Library::default().into());
+            read_project_on(bytes, empty).ok().map(|read| read.value)
+        }
+        Err(_) => None,
+    };
     // As they would come back from a file, in which numbers are rounded.
-    let as_read = |project: &Project| read(&write_project(project, &folder_of(path), CREATED_BY));
+    let as_read = |project: &Project| read(&write_project(project, &folder, CREATED_BY));
     let (base, here) = (base.and_then(as_read), as_read(here).unwrap_or_else(|| here.clone()));
     let differences = read(present).map(|there| differences(base.as_ref(), &here, &there));
     Conflict { path: path.to_owned(), sha256: sha256_hex(present), differences }
 }
 
+fn unreadable() -> std::io::Error {
+    std::io::ErrorKind::PermissionDenied.into()
+}
+
 #[cfg(all(test, target_os = "linux", target_arch = "x86_64"))]
 #[path = "document/tests/faults.rs"]
 mod faults;
+
+#[cfg(test)]
+#[path = "document/tests/other_library.rs"]
+mod other_library;
 
 #[cfg(test)]
 #[path = "document/tests/support.rs"]
@@ -262,6 +318,7 @@ mod tests {
     use shagreen_formats::built_in::BuiltIn;
     use shagreen_formats::project::{Project, ProjectLibrary};
     use shagreen_studio::open::Opened;
+    use shagreen_studio::permitted_libraries::Permitted;
 
     #[test]
     fn a_project_is_saved_and_opened_again() {
@@ -281,7 +338,7 @@ mod tests {
         assert_eq!(document.name(), "Woods");
         document.follow(&begun, 2);
         assert!(document.is_changed(), "undo goes back behind what is saved");
-        document.open(path, &ctx);
+        document.open(path, Permitted::All, &ctx);
         let Came::Opened(Opened::Project(opened), _) = wait(&mut document) else { panic!("a project") };
         assert_eq!((opened.project, opened.warnings), (project, Vec::new()));
     }

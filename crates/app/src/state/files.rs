@@ -1,12 +1,14 @@
 //! All files of the window: the project file, recovery, and settings.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use egui::Context;
-use shagreen_formats::project::Project;
+use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::settings::Settings;
 use shagreen_studio::open::OpenedProject;
+use shagreen_studio::permitted_libraries::Permitted;
 
+use crate::state::desktop_motion;
 use crate::state::document::{Document, DocumentFile};
 use crate::state::leave::Leave;
 use crate::state::recovery::{Leftover, Recovery, leftovers};
@@ -22,6 +24,23 @@ pub struct StoragePaths {
     pub settings: Option<PathBuf>,
     /// Folder of added models.
     pub models: Option<PathBuf>,
+    /// Folder of all files that Shagreen keeps for the user. Projects may read libraries in it.
+    pub own: Option<PathBuf>,
+    /// Folder in which the desktop keeps its settings; it is only read.
+    pub desktop: Option<PathBuf>,
+}
+
+/// Purpose of reading a project file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Reading {
+    /// The project opens.
+    #[default]
+    Open,
+    /// A copy of it begins as a new project.
+    Template,
+    /// The file of the open project is read again, because another window or program has changed it. The open project
+    /// is then kept aside.
+    Reload,
 }
 
 /// Project file, settings and recovery.
@@ -38,14 +57,16 @@ pub(crate) struct Files {
     pub(crate) after_saving: Option<Leave>,
     /// Project that was read and opens when the present one is left. The path is `None` for a copy.
     pub(crate) waiting: Option<(Box<OpenedProject>, Option<PathBuf>)>,
-    /// Changed file that is read again; the open project is then kept aside.
-    pub(crate) reloading: Option<PathBuf>,
     /// Whether to save once more when the file has been written.
     pub(crate) saves_again: bool,
     /// Whether the program may close.
     pub(crate) is_closing: bool,
-    /// Whether the file being read is the template of a new project.
-    pub(crate) is_beginning: bool,
+    /// Purpose of the file being read.
+    reading: Reading,
+    /// Folder of all files that Shagreen keeps for the user.
+    own_folder: Option<PathBuf>,
+    /// Whether the desktop asks for reduced motion.
+    desktop_reduces_motion: bool,
 }
 
 impl Files {
@@ -71,16 +92,22 @@ impl Files {
             recovered: None,
             after_saving: None,
             waiting: None,
-            reloading: None,
             saves_again: false,
             is_closing: false,
-            is_beginning: false,
+            reading: Reading::default(),
+            own_folder: keeping.own,
+            desktop_reduces_motion: keeping.desktop.as_deref().is_some_and(desktop_motion::reduces_motion),
         }
     }
 
     /// Reason why no output may be driven: the settings file exists, but its device setup is unreadable.
     pub(crate) fn settings_problem(&self) -> Option<&str> {
         self.settings_file.problem()
+    }
+
+    /// Whether animations are off: the choice of the user, or else that of the desktop.
+    pub(crate) fn reduces_motion(&self) -> bool {
+        self.settings.reduces_motion.unwrap_or(self.desktop_reduces_motion)
     }
 
     /// Projects that other windows left behind.
@@ -115,6 +142,49 @@ impl Files {
         self.restart_recovery();
     }
 
+    /// Replaces the open project by one that differs from its file.
+    pub(crate) fn begin_unsaved(&mut self, file: Option<DocumentFile>) {
+        if let Some(file) = &file {
+            self.settings.note_project(&file.path);
+        }
+        self.document = Document::unsaved(file);
+        self.restart_recovery();
+    }
+
+    /// Reads a project or library in the background. A project may read libraries in its own folder, in the folder of
+    /// Shagreen, and those that the user has permitted for it.
+    pub(crate) fn open(&mut self, path: PathBuf, reading: Reading, ctx: &Context) {
+        self.reading = reading;
+        let mut places = self.settings.libraries_of(&path);
+        places.extend(self.own_folder.clone());
+        self.document.open(path, Permitted::Only(places), ctx);
+    }
+
+    /// Reads a project on another library than the one that it names, or on the starter library.
+    pub(crate) fn open_on(
+        &mut self,
+        path: PathBuf,
+        library: Option<PathBuf>,
+        reading: Reading,
+        ctx: &Context,
+    ) {
+        self.reading = reading;
+        self.document.open_on(path, library, ctx);
+    }
+
+    /// Purpose of the file that was read last.
+    pub(crate) fn take_reading(&mut self) -> Reading {
+        std::mem::take(&mut self.reading)
+    }
+
+    /// Permits the library of a project that was saved: the user has opened it.
+    pub(crate) fn note_saved(&mut self, path: &Path, project: &Project) {
+        self.settings.note_project(path);
+        if let ProjectLibrary::File(file) = &project.library {
+            self.settings.permit_library(path, &file.path);
+        }
+    }
+
     /// Replaces the open project by a recovered one, which is in no project file yet.
     pub(crate) fn begin_recovered(&mut self, leftover: Leftover) {
         self.document = Document::unsaved(leftover.origin.clone());
@@ -133,7 +203,10 @@ impl Files {
 
     /// Cancels leaving the project.
     pub(crate) fn stay(&mut self) {
-        (self.after_saving, self.waiting, self.reloading) = (None, None, None);
+        (self.after_saving, self.waiting) = (None, None);
+        if self.reading == Reading::Reload {
+            self.reading = Reading::Open;
+        }
     }
 
     /// Discards the recovery file, which belongs to the previous project.

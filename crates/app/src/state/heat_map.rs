@@ -1,5 +1,7 @@
 //! A quantity over the whole space, drawn as colors behind the canvas. A worker computes it, coarse resolution first.
 
+mod region;
+
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, channel};
@@ -10,6 +12,8 @@ use shagreen_core::space::authoring::{Authoring, Blending};
 use shagreen_core::space::heat_map::{HeatMapper, Quantity};
 use shagreen_core::texture::plane::Plane;
 use shagreen_core::units::Contact;
+
+use crate::state::heat_map::region::{continued, outline};
 
 /// Cells along each side, from coarse to fine.
 const SIDES: [usize; 3] = [8, 24, 48];
@@ -35,6 +39,11 @@ pub struct Grid {
     /// Values at the cell centers, row by row from the low end of the y axis, each row from the low end of the x axis.
     /// `None` where there is no value.
     pub values: Vec<Option<f64>>,
+    /// Values with those outside the region continued from its edge, in the same order. Colors are interpolated between
+    /// cells, so that cells outside determine colors inside.
+    pub continued: Vec<Option<f64>>,
+    /// Outline of the region with values, as a polygon; `None` if the whole space has values.
+    pub outline: Option<Arc<[SpacePoint]>>,
 }
 
 impl Grid {
@@ -126,6 +135,10 @@ fn begin(wanted: Wanted, authoring: Authoring, planes: Vec<Arc<Plane>>, ctx: Con
     std::thread::spawn(move || {
         let planes: Vec<&Plane> = planes.iter().map(|plane| &**plane).collect();
         let mapper = HeatMapper::new(&authoring, &planes, &wanted.blending, wanted.contact, wanted.quantity);
+        // The distance from the textures is defined everywhere.
+        let has_outline = wanted.quantity != Quantity::Distance;
+        let outline: Option<Arc<[SpacePoint]>> =
+            has_outline.then(|| Arc::from(outline(&authoring, &wanted.blending)));
         for side in SIDES {
             let mut values = Vec::with_capacity(side * side);
             for cell in 0..side * side {
@@ -134,7 +147,11 @@ fn begin(wanted: Wanted, authoring: Authoring, planes: Vec<Arc<Plane>>, ctx: Con
                 }
                 values.push(mapper.at(middle_of(cell, side)));
             }
-            if sender.send(Grid { side, values }).is_err() {
+            let is_inside = |cell: usize| {
+                authoring.space().locate(middle_of(cell, side)).is_some_and(|location| !location.clamped)
+            };
+            let continued = continued(&values, side, is_inside);
+            if sender.send(Grid { side, values, continued, outline: outline.clone() }).is_err() {
                 return;
             }
             ctx.request_repaint();
@@ -148,11 +165,11 @@ fn middle_of(cell: usize, side: usize) -> SpacePoint {
     SpacePoint { rough_smooth: along(cell % side), hard_soft: along(cell / side) }
 }
 
-/// Picture of the map; its first row is the high end of the y axis.
+/// Picture of the map, to be clipped to the outline; its first row is the high end of the y axis.
 fn image(grid: &Grid, color_of: impl Fn(f32) -> Color32) -> ColorImage {
     let (low, high) = grid.range().unwrap_or_default();
     let share = |value: f64| if high > low { ((value - low) / (high - low)) as f32 } else { 0.5 };
-    let rows = grid.values.chunks(grid.side).rev();
+    let rows = grid.continued.chunks(grid.side).rev();
     let pixels =
         rows.flatten().map(|value| value.map_or(Color32::TRANSPARENT, |value| color_of(share(value))));
     ColorImage::new([grid.side, grid.side], pixels.collect())
@@ -165,7 +182,8 @@ mod tests {
 
     #[test]
     fn a_map_is_a_picture_with_its_high_axis_up() {
-        let grid = Grid { side: 2, values: vec![Some(1.0), None, Some(3.0), Some(2.0)] };
+        let values = vec![Some(1.0), None, Some(3.0), Some(2.0)];
+        let grid = Grid { side: 2, continued: values.clone(), values, outline: None };
         assert_eq!(grid.range(), Some((1.0, 3.0)));
         let gray = |share: f32| Color32::from_gray((100.0 * share) as u8);
         let image = image(&grid, gray);
@@ -174,6 +192,7 @@ mod tests {
         assert_eq!(image.pixels, expected);
         let middle = middle_of(2, 2);
         assert_eq!((middle.rough_smooth, middle.hard_soft), (25.0, 75.0));
-        assert_eq!(Grid { side: 1, values: vec![None] }.range(), None);
+        let nothing = Grid { side: 1, values: vec![None], continued: vec![None], outline: None };
+        assert_eq!(nothing.range(), None);
     }
 }

@@ -42,7 +42,8 @@ impl OwnSurface {
     }
 }
 
-fn pixels_of(rgb: &Rgb) -> Pixels {
+/// Pixels of a decoded picture.
+pub(crate) fn pixels_of(rgb: &Rgb) -> Pixels {
     let colors = rgb.pixels.as_chunks::<3>().0.iter().map(|color| color.map(f32::from));
     Pixels { width: rgb.width as usize, colors: colors.collect() }
 }

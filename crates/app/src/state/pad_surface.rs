@@ -29,14 +29,19 @@ pub(crate) struct PadSurface {
 }
 
 impl PadSurface {
-    /// Makes a surface like a picture of `width_mm`.
+    /// Makes a surface like a picture of `width_mm`, in the size of the pad.
     pub(crate) fn new(picture: &Pixels, width_mm: f64) -> Self {
+        Self::of_size(picture, width_mm, SIZE)
+    }
+
+    /// Makes a surface of about `size` pixels (width, height) like a picture of `width_mm`.
+    pub(crate) fn of_size(picture: &Pixels, width_mm: f64, size: [usize; 2]) -> Self {
         let longest = picture.width.max(picture.height());
         let wanted = (PIXELS_PER_MM * width_mm * longest as f64 / picture.width as f64) as usize;
         let sample = reduced(picture, longest.div_ceil(wanted.clamp(32, LONGEST_SAMPLE)).max(1));
         let mm_per_pixel = width_mm / sample.width as f64;
         // The seed is fixed: the same texture always looks the same.
-        let pixels = quilted(&sample, SIZE, 1).unwrap_or(sample);
+        let pixels = quilted(&sample, size, 1).unwrap_or(sample);
         let size_mm = [pixels.width, pixels.height()].map(|side| side as f64 * mm_per_pixel);
         Self { pixels, size_mm }
     }

@@ -187,7 +187,7 @@ impl Pictures {
 }
 
 /// Weighted mean of pictures, with their contrast restored.
-fn mix(parents: &[(Arc<Rgb>, f64)]) -> Pixels {
+pub(crate) fn mix(parents: &[(Arc<Rgb>, f64)]) -> Pixels {
     let mut sum = vec![[0.0_f32; 3]; BLEND_SIDE * BLEND_SIDE];
     for (image, weight) in parents {
         let (width, height) = (image.width as usize, image.height as usize);

@@ -17,6 +17,8 @@ const WINDOW: usize = 512;
 const SMOOTHING: f64 = 0.25;
 /// Duration of the kept moments, in seconds.
 pub const MOMENTS_SECS: f64 = 5.0;
+/// Largest magnitude that counts as silence, in m/s².
+const SILENT_MPS2: f64 = 1e-3;
 /// Interval between moments, in seconds.
 const HOP_SECS: f64 = 0.032;
 /// Window of a moment's spectrum, in seconds.
@@ -44,6 +46,8 @@ pub struct ScopeBuffer {
     samples: VecDeque<f64>,
     density: Vec<(Hertz, f64)>,
     range: f64,
+    /// Whether all kept samples were silent at the last update.
+    is_silent: bool,
     moments: VecDeque<Moment>,
     /// Number of samples since the last moment.
     n_since: usize,
@@ -74,6 +78,7 @@ impl ScopeBuffer {
             samples: VecDeque::new(),
             density: Vec::new(),
             range: 1.0,
+            is_silent: true,
             moments: VecDeque::new(),
             n_since: 0,
         }
@@ -122,6 +127,7 @@ impl ScopeBuffer {
         self.samples.clear();
         self.moments.clear();
         self.density.clear();
+        self.is_silent = true;
         self.n_since = 0;
     }
 
@@ -137,7 +143,11 @@ impl ScopeBuffer {
             self.density = density;
         }
         let peak = self.samples.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        self.range = nice_ceiling(peak);
+        if peak > SILENT_MPS2 {
+            let needed = nice_ceiling(peak);
+            self.range = if self.is_silent { needed } else { self.range.max(needed) };
+        }
+        self.is_silent = peak <= SILENT_MPS2;
     }
 
     /// Sample rate in Hz, and the samples of the last `secs` seconds, oldest first.
@@ -151,7 +161,8 @@ impl ScopeBuffer {
         &self.density
     }
 
-    /// Round number in m/s² that no kept sample exceeds in magnitude.
+    /// Round number in m/s² that no kept sample exceeds in magnitude. It grows when it must. It becomes smaller only when
+    /// a signal begins after silence, so that the axis does not change during a stroke.
     pub fn range(&self) -> f64 {
         self.range
     }
@@ -230,6 +241,24 @@ mod tests {
         let loudest = scope.density().iter().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
         assert!((loudest.0.0 - 100.0).abs() < 4.0);
         assert_eq!(scope.range(), 1.0);
+    }
+
+    /// The range grows at once, stays while the signal becomes weaker, and is chosen anew after silence.
+    #[test]
+    fn the_range_is_constant_until_it_must_grow() {
+        let mut scope = ScopeBuffer::new(1000.0, 500.0);
+        let mut range_after = |peak: f32, n: usize| {
+            for _ in 0..n {
+                scope.push(&[peak; 100], STILL);
+                scope.update();
+            }
+            scope.range()
+        };
+        assert_eq!(range_after(0.3, 1), 0.5);
+        assert_eq!(range_after(4.0, 1), 5.0);
+        assert_eq!(range_after(0.3, 50), 5.0, "the weaker signal fills the buffer");
+        assert_eq!(range_after(0.0, 50), 5.0, "silence changes nothing");
+        assert_eq!(range_after(0.3, 1), 0.5);
     }
 
     #[test]

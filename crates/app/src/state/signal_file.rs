@@ -20,7 +20,7 @@ use shagreen_studio::tap_transients::add_tap_transients;
 use shagreen_studio::trace::{steady_trace, stroke_trace};
 
 use crate::state::bench_signal::BenchSignal;
-use crate::strings::signal as strings;
+use crate::strings::export as strings;
 
 /// Usual duration of the signal, in seconds.
 pub(crate) const SIGNAL_SECS: f64 = 5.0;
@@ -31,7 +31,7 @@ pub(crate) const SIGNAL_SEED: u64 = 1;
 
 /// How a signal is rendered and written.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SignalOptions {
+pub(crate) struct SignalOptions {
     /// Duration in seconds, unless a recorded stroke or a signal of the Signals workspace determines it.
     pub seconds: f64,
     /// Sample rate in Hz.
@@ -95,7 +95,7 @@ impl SignalFile {
     /// of file.
     pub(crate) fn write(&self, path: &Path, options: &SignalOptions) -> Result<(), String> {
         if !Self::may_lie_beside(path) {
-            return Err(strings::NO_SIGNAL.to_owned());
+            return Err(strings::not_replaced(&sidecar_path(path).display().to_string()));
         }
         let (rate_hz, seconds) = (options.rate_hz, self.seconds(options));
         let samples = self.samples(options)?;

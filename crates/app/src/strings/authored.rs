@@ -7,6 +7,12 @@ pub const ADD_HELP: &str = "Adds a texture at the center of the space, with the 
 pub const DUPLICATE: &str = "Duplicate";
 pub const DUPLICATE_HELP: &str = "Adds a copy of this texture, slightly offset in the space";
 pub const DELETE: &str = "Delete";
+pub const RENAME: &str = "Rename…";
+pub const RENAME_HELP: &str = "Selects this texture and its name, above the sliders.";
+pub const ADD_HERE: &str = "Add a texture here";
+pub const ADD_HERE_HELP: &str = "Adds an authored texture at this position, with the interpolation mode and options of the selected texture";
+pub const MOVE_HERE: &str = "Move the point here";
+pub const MOVE_HERE_HELP: &str = "Moves the selected authored texture to this position.";
 pub const DETAILS: &str = "Details";
 pub const DETAILS_HELP: &str = "Color, tags, notes and picture of this texture";
 pub const TAGS: &str = "Tags";
@@ -31,6 +37,16 @@ pub const AS_OWN_HELP: &str = "Adds an authored texture with this state. You can
 /// Accessible name on the canvas of an authored texture that is not selected.
 pub fn on_canvas(name: &str) -> String {
     format!("Authored: {name}")
+}
+
+/// Result of a drop of a library texture at the pointer.
+pub fn drop_adds(name: &str) -> String {
+    format!("Add {name} at its position")
+}
+
+/// Why a library texture cannot be dropped.
+pub fn cannot_drop(name: &str) -> String {
+    format!("{name} has no position in this space")
 }
 
 /// Accessible name of an authored texture in the list.

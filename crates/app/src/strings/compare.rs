@@ -5,12 +5,21 @@ pub const HELP: &str = "ABX comparison of two authored textures under the same s
 pub const BLIND: &str = "Blind";
 pub const BLIND_HELP: &str =
     "Assigns the two textures to A and B at random and hides the assignment, until you clear this box";
-pub const HIDDEN: &str = "Hidden during a blind comparison";
+pub const HIDDEN: &str = "Hidden: blind comparison";
+pub const EDIT: &str = "Edit";
+pub const EDIT_HELP: &str = "Ends the comparison and selects this texture, so that you can edit it.";
+pub const END: &str = "End comparison";
+pub const END_HELP: &str = "Plays the selected texture again, so that you can edit it.";
 pub const NEEDS_TWO: &str = "A comparison needs two authored textures; add another one";
 
 /// Accessible name of the button that plays a side.
 pub fn hear(letter: &str) -> String {
     format!("Play {letter}")
+}
+
+/// Side and texture that are audible.
+pub fn you_hear(letter: &str, name: &str) -> String {
+    format!("You hear {letter}: {name}")
 }
 
 /// Texture that is assigned to a side.

@@ -47,7 +47,7 @@ pub const FULL_SCALE_HELP: &str = "Acceleration that drives the output to full s
 /// Kind of file in the dialog of the system.
 pub const PROFILES: &str = "Actuator profiles";
 pub const PROFILE_PATH: &str = "Profile file";
-pub const PROFILE_HINT: &str = "profile.toml from shagreen calibrate";
+pub const PROFILE_HINT: &str = "profile.toml";
 pub const OPEN_PROFILE: &str = "Open";
 pub const READING_BROKEN: &str = "reading the profile stopped unexpectedly; try again";
 

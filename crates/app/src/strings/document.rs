@@ -26,6 +26,10 @@ pub const TEMPLATE_HELP: &str = "New projects start as a copy of this project's 
 pub const TEMPLATE_NEEDS_FILE: &str = "Save the project first: new projects start as a copy of its file.";
 pub const QUIT: &str = "Quit";
 
+// Name of the project.
+pub const PROJECT_NOTES: &str = "Notes on the project";
+pub const PROJECT_NOTES_HINT: &str = "What this project is for";
+
 // Opening.
 pub const OPEN_TITLE: &str = "Open a project or library";
 pub const OPEN_KIND: &str = "Projects and libraries";
@@ -39,9 +43,31 @@ pub const NOTHING_HERE: &str = "No file in this folder can be opened here.";
 pub const OPENING: &str = "Opening…";
 pub const CANCEL: &str = "Cancel";
 
+// Library outside the folder of its project.
+pub const OUTSIDE_TITLE: &str = "Library outside the folder of the project";
+pub const READ_LIBRARY: &str = "Read";
+pub const READ_LIBRARY_HELP: &str =
+    "Reads this library, now and whenever this project is opened on this computer";
+pub const CHOOSE_LIBRARY: &str = "Choose another…";
+pub const CHOOSE_LIBRARY_HELP: &str =
+    "Opens the project with another library, which is stored when the project is saved";
+pub const OPEN_WITHOUT: &str = "Open without";
+pub const OPEN_WITHOUT_HELP: &str = "Opens a copy of the project with the starter library. Textures of the other library are missing, and its file is not read.";
+/// Accessible name of the path field.
+pub const OTHER_LIBRARY: &str = "Library file";
+pub const OTHER_LIBRARY_HINT: &str = "library.json";
+pub const USE_LIBRARY: &str = "Use this library";
+
+/// Question before a project reads a library.
+pub fn outside(project: &str) -> String {
+    format!(
+        "{project} reads a library outside its own folder. If someone sent you the project, this file did not come with it. Read it?"
+    )
+}
+
 // Saving.
 pub const LEAVE_PAINTING: &str = "Leave the painted signal?";
-pub const PAINTING_LOST: &str = "Signal B in Signals was edited, and signals are not part of a project. To keep it, cancel, press Feel at B, and use File > Export as WAV.";
+pub const PAINTING_LOST: &str = "Signal B in Signals was edited, and signals are not part of a project. To keep it, cancel, press Feel at B, and use File > Export.";
 pub const LEAVE_IT: &str = "Leave it";
 pub const LEAVE_TITLE: &str = "Save the changes first?";
 pub const SAVE_FIRST: &str = "Save";
@@ -94,6 +120,11 @@ pub fn is_library(path: &str) -> String {
 
 pub fn not_saved(reason: &str) -> String {
     format!("Not saved: {reason}")
+}
+
+/// Help of the project's name, followed by the notes on the project.
+pub fn with_notes(help: &str, notes: &str) -> String {
+    if notes.is_empty() { help.to_owned() } else { format!("{help}\n\n{notes}") }
 }
 
 /// Path of the project, and whether it has unsaved changes.

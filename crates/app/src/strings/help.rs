@@ -10,17 +10,19 @@ pub const FIND_COMMAND: &str = "Find a command";
 pub const NO_COMMAND: &str = "No command contains these words.";
 pub const PALETTE: &str = "Commands";
 pub const GUIDE: &str = "Guide";
+pub const BACK: &str = "Back";
 pub const NEXT: &str = "Next";
 pub const DONE: &str = "Done";
 pub const SKIP: &str = "Skip tour";
 
 /// Keys and pointer actions that are not commands, with what they do.
-pub const MORE_KEYS: [(&str, &str); 6] = [
+pub const MORE_KEYS: [(&str, &str); 7] = [
     ("Arrow keys", "Move the selected point (Shift: larger steps)"),
     ("Tab", "Move the keyboard focus to the next control"),
     ("Ctrl with + - 0", "Zoom the interface in or out, or reset it"),
     ("Wheel over the space", "Zoom the view of the space"),
     ("Right or middle button", "Pan the view of the space"),
+    ("Menu or Shift+F10", "Open the menu of the focused control"),
     ("Wheel over the stroke pad", "Change the normal force of the mouse and the automatic stroke"),
 ];
 

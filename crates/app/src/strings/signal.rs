@@ -1,21 +1,12 @@
-//! Export of signals as WAV.
+//! Exported signals and their options.
 
 use shagreen_formats::wav_encoding::{Level, SampleType};
 
-pub const EXPORT: &str = "Export as WAV…";
-pub const EXPORT_HELP: &str = "Renders the audible texture, or all authored ones, as WAV files: length, loop, rate, samples and level are chosen";
 pub const NOTHING: &str = "No signal is available. Play a texture, or end the blind comparison.";
-pub const EXPORT_TEXTURE: &str = "Export texture";
 pub const NO_MODEL: &str = "This interpolation mode mixes signals, so there is no texture model to export; choose Field or Parametric.";
-pub const SAVE_TEXTURE_TITLE: &str = "Export texture";
-pub const SAVE_TEXTURE_PATH: &str = "Path of the texture file";
-pub const SAVE_TEXTURE_HINT: &str = "/path/to/texture";
+pub const NO_TEXTURE: &str =
+    "No texture can be interpolated at this point; move the point, or choose another interpolation mode.";
 pub const PREPARING: &str = "The texture is still being computed; try again in a moment";
-pub const SAVE_TITLE: &str = "Export as WAV";
-pub const SAVE_PATH: &str = "Path of the signal file";
-pub const SAVE_HINT: &str = "/path/to/texture.wav";
-pub const EXISTS: &str = "A signal file exists at this path. Replace it, or choose another path.";
-pub const NO_SIGNAL: &str = "The file at this path, or the .json file of the same name, is not a Shagreen signal and is not replaced. Choose another path.";
 
 /// Accessible name of the choice of the motion.
 pub const MOTION: &str = "Motion of the tip";
@@ -31,9 +22,6 @@ pub const RATE: &str = "Rate";
 pub const SAMPLES: &str = "Samples";
 /// Label of the level.
 pub const LEVEL: &str = "Level";
-/// Explanation of the option that exports all authored textures.
-pub const ALL_HELP: &str =
-    "One file for each authored texture, with its name, in the folder of the path above";
 
 /// Choice of the motion.
 pub fn motion(follows_stroke: bool) -> &'static str {
@@ -74,11 +62,6 @@ pub fn level_help(level: Level) -> &'static str {
     }
 }
 
-/// Option that exports all authored textures.
-pub fn all_of(n: usize) -> String {
-    format!("All {n} authored textures")
-}
-
 /// What will be saved: a signal of `secs` at a steady contact, or along the recorded stroke.
 pub fn to_save(secs: f64, contact: Option<(f64, f64)>) -> String {
     let motion = match contact {
@@ -93,29 +76,4 @@ pub fn to_save(secs: f64, contact: Option<(f64, f64)>) -> String {
 /// What will be saved: a signal of the Signals workspace.
 pub fn bench_to_save(name: &str, secs: f64) -> String {
     format!("Saves {name}, {secs:.2} s. A .json file with the unit is saved beside it.")
-}
-
-/// Why a file is not replaced.
-pub fn not_replaced(path: &str) -> String {
-    format!("This file is not a Shagreen signal and is not replaced. Choose another path: {path}")
-}
-
-/// Summary of the texture that is exported.
-pub fn texture_to_save(name: &str, format: &str, lost: &[String]) -> String {
-    let lost = if lost.is_empty() {
-        String::new()
-    } else {
-        format!(" The file does not contain: {}.", lost.join("; "))
-    };
-    format!("Saves \"{name}\" as {format}.{lost}")
-}
-
-/// Question before a file of the same format is replaced.
-pub fn texture_exists(format: &str) -> String {
-    format!("A {format} exists at this path. Replace it, or choose another path.")
-}
-
-/// Reason why a file of another kind is not replaced.
-pub fn no_texture(format: &str) -> String {
-    format!("The file at this path is not a {format} and is not replaced. Choose another path.")
 }

@@ -1,10 +1,9 @@
 //! Signals workspace.
 
-use shagreen_core::signals::quality::Feature;
-
 use crate::choices::signals::Slot;
 use crate::choices::signals::Tool;
 use crate::choices::signals::View;
+use crate::strings::digits::three_digits;
 
 /// Label followed by the letter of the slot.
 fn of(what: &str, slot: Slot) -> String {
@@ -80,12 +79,14 @@ pub const MAKING: &str = "Computing…";
 
 /// Duration, speed, length and level of a signal.
 pub fn facts(seconds: f64, length_mm: f64, level_mps2: f64, mm_per_s: f64) -> String {
-    format!("{seconds:.2} s at {mm_per_s:.0} mm/s: {length_mm:.1} mm, {level_mps2:.2} m/s² rms")
+    let [seconds, mm_per_s, length_mm, level_mps2] =
+        [seconds, mm_per_s, length_mm, level_mps2].map(three_digits);
+    format!("{seconds} s at {mm_per_s} mm/s: {length_mm} mm, {level_mps2} m/s² rms")
 }
 
 /// Warning about a signal that was truncated.
 pub fn cut(seconds: f64) -> String {
-    format!("the signal is too long; only the first {seconds:.1} s are used")
+    format!("the signal is too long; only the first {} s are used", three_digits(seconds))
 }
 
 pub const SPEED: &str = "speed";
@@ -135,7 +136,7 @@ pub fn kbps(kbps: f64) -> String {
 
 /// Label of the button that resynthesizes B.
 pub fn remake(window_mm: f64) -> String {
-    format!("Resynthesize, {window_mm:.2} mm")
+    format!("Resynthesize, {} mm", three_digits(window_mm))
 }
 
 pub const REMAKE: &str = "Resynthesize from the spatial spectrogram";
@@ -151,9 +152,10 @@ pub fn through_codec(name: &str, kbps: f64) -> String {
 
 /// Name of a resynthesized signal.
 pub fn remade(name: &str, window_mm: f64, n_steps: usize) -> String {
+    let window_mm = three_digits(window_mm);
     match n_steps {
-        0 => format!("{name}, resynthesized at {window_mm:.2} mm"),
-        n => format!("{name}, resynthesized at {window_mm:.2} mm, {n} iterations"),
+        0 => format!("{name}, resynthesized at {window_mm} mm"),
+        n => format!("{name}, resynthesized at {window_mm} mm, {n} iterations"),
     }
 }
 
@@ -209,7 +211,7 @@ pub fn view_help(view: View) -> &'static str {
 /// Title of a spectrogram.
 pub fn map_title(view: View, name: &str, window_mm: f64) -> String {
     match view {
-        View::Places => format!("{name}, {window_mm:.2} mm window"),
+        View::Places => format!("{name}, {} mm window", three_digits(window_mm)),
         View::Times | View::Differences => name.to_owned(),
     }
 }
@@ -258,65 +260,16 @@ pub const ZOOM_HELP: &str = "Scroll over a spectrogram to zoom in on a part of t
 
 pub const WAVE: &str = "waveform";
 pub const THIS_WINDOW: &str = "current window width";
-pub const FIDELITY: &str = "Fidelity by window width";
+pub const FIDELITY: &str = "Fidelity";
 pub const WINDOW_MM: &str = "window width in mm";
 pub const CORRELATION: &str = "correlation (A, B: envelope)";
-pub const MEASURED: &str = "computed from these signals";
+pub const MEASURED: &str = "from these signals";
 
 pub const BY_RATE: &str = "Predicted d' by codec bit rate";
 pub const KBPS: &str = "bit rate in kbit/s";
 pub const D_PRIME: &str = "predicted d'";
 pub const TOLD_APART: &str = "d' = 1: 69 % correct (unbiased)";
 pub const PREDICTED: &str = "model prediction, not rated by people";
-
-pub const FEATURE_COLUMNS: [&str; 4] = ["A", "B", "distance", "d' contribution"];
-pub const FEATURE_COLUMNS_HELP: [&str; 4] = [
-    "Value for A; empty for features that only compare two signals",
-    "Value for B; empty for features that only compare two signals",
-    "Distance between A and B, mean over segments of 0.8 s",
-    "Contribution of this distance to the predicted d'. Features without a value are not in the model.",
-];
-
-/// Title of the table of features.
-pub fn features_title([first, second]: [&str; 2], d_prime: f64) -> String {
-    format!("{first} and {second}: predicted d' {d_prime:.2}")
-}
-
-pub fn d_prime(d_prime: f64) -> String {
-    format!("d' {d_prime:.2}")
-}
-
-pub const D_PRIME_HELP: &str = "Predicted discriminability of A and B: d' = z(H) - z(F), in standard deviations. At d' = 1, an unbiased observer answers 69 % correctly. A model with published weights predicts d'; no one has rated these signals. Use it for a signal and a processed version of it. Two strokes on the same texture give a large d' although they feel alike. The order of d' values is more reliable than their size.";
-
-/// Duration and signal-to-noise ratio of the comparison.
-pub fn compared(snr_db: f64, seconds: f64) -> String {
-    let noise = if snr_db.is_finite() {
-        format!("signal-to-noise ratio of B relative to A {snr_db:.1} dB")
-    } else if snr_db > 0.0 {
-        "A and B are identical".to_owned()
-    } else {
-        "A is silent".to_owned()
-    };
-    format!("compared over {seconds:.1} s; {noise}")
-}
-
-pub fn feature(feature: Feature) -> String {
-    feature.id().replace('_', " ")
-}
-
-pub fn feature_help(feature: Feature) -> &'static str {
-    match feature {
-        Feature::Roughness => "Logarithm (base 10) of the mean power in (m/s²)²",
-        Feature::Brightness => "Spectral centroid, in Hz",
-        Feature::Regularity => "Largest normalized autocorrelation at lags of 2 to 50 ms, at most 1",
-        Feature::Asymmetry => "Skewness of the samples",
-        Feature::SpectralPower => "Activation of frequency-tuned tactile channels, by power",
-        Feature::SpectralAmplitude => "Activation of frequency-tuned tactile channels, by amplitude",
-        Feature::Envelope => {
-            "Temporal envelope up to 20 Hz. The distance is 1 minus the largest cross-correlation."
-        }
-    }
-}
 
 pub const NEEDS_PAIR: &str = "A comparison needs two signals: load A and B.";
 pub const TOO_SHORT: &str = "the signal is shorter than 0.8 s, the minimum for a comparison; use a longer signal or a lower stroke speed";
@@ -325,7 +278,7 @@ pub const BROKE_OFF: &str = "the computation stopped unexpectedly; this is a bug
 
 /// Error about a stretch factor that is too large.
 pub fn too_long(factor: f64) -> String {
-    format!("the stretch factor is too large; the maximum for this signal is {factor:.2}")
+    format!("the stretch factor is too large; the maximum for this signal is {}", three_digits(factor))
 }
 
 pub const BEYOND_TOUCH: &str =
@@ -360,9 +313,9 @@ pub fn tool_help(tool: Tool) -> &'static str {
     }
 }
 
-pub const BRUSH_WIDTH: &str = "width";
+pub const BRUSH_WIDTH: &str = "half-width";
 pub const BRUSH_WIDTH_HELP: &str = "Half-width of the brush along the position axis, in mm";
-pub const BRUSH_HEIGHT: &str = "height";
+pub const BRUSH_HEIGHT: &str = "half-height";
 pub const BRUSH_HEIGHT_HELP: &str = "Half-height of the brush along the frequency axis, in octaves";
 pub const BRUSH_GAIN: &str = "gain";
 pub const BRUSH_GAIN_HELP: &str =
@@ -370,13 +323,13 @@ pub const BRUSH_GAIN_HELP: &str =
 pub const STRETCH: &str = "Stretch";
 pub const STRETCH_HELP: &str = "Stretches B by this factor: events become longer, frequencies stay the same";
 pub const STRETCH_FACTOR: &str = "Stretch factor";
-pub const UNDO_PAINTING: &str = "Undo";
-pub const REDO_PAINTING: &str = "Redo";
-pub const BRUSH_STROKE: &str = "brush stroke";
-pub const ERASING: &str = "erase";
-pub const PASTING: &str = "paste";
-pub const REPLACING: &str = "replace B";
-pub const STRETCHING: &str = "stretch";
+// Names of edits, as they follow the words "Undo" and "Redo".
+pub const AMPLIFYING: &str = "Amplify part of B";
+pub const ATTENUATING: &str = "Attenuate part of B";
+pub const ERASING: &str = "Erase part of B";
+pub const PASTING: &str = "Paste into B";
+pub const REPLACING: &str = "Replace B";
+pub const STRETCHING: &str = "Stretch B";
 pub const NOTHING_COPIED: &str = "the rectangle is too small; drag over a larger area";
 pub const NOTHING_TO_PASTE: &str = "Nothing has been copied yet; use the tool Copy first";
 pub const PAINTED_MAP: &str = "Spatial spectrogram of B, editable";

@@ -31,6 +31,11 @@ pub const DETAILS_HELP: &str =
     "Shows name, position, license, range of speed and force, and plots of level and spectrum";
 pub const HEAR_ALONE: &str = "Solo";
 pub const HEAR_ALONE_HELP: &str = "Plays this texture instead of the interpolated one, until the authored point moves. Stroke the pad to feel it.";
+pub const CHOOSE: &str = "Choose exactly";
+pub const CHOOSE_HELP: &str = "Moves the authored point onto this texture and plays exactly this texture, until the point moves. A click on its picture in the space does the same.";
+pub const AUTHOR: &str = "Add as authored texture";
+pub const AUTHOR_HELP: &str = "Adds an authored texture that is exactly this texture: at its position, in the mode Field and pinned. Dragging the row onto the space does the same.";
+pub const NO_POSITION: &str = "This texture has no position in the space.";
 pub const STAR: &str = "Star";
 pub const UNSTAR: &str = "Unstar";
 pub const STAR_HELP: &str = "Starred textures come first in the list. The project stores the stars.";

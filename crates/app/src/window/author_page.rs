@@ -74,11 +74,13 @@ impl Window {
             ctx,
         );
         let quantity = self.pages.author.map?;
-        let range = self.pages.author.heat.grid().and_then(Grid::range);
+        let grid = self.pages.author.heat.grid();
+        let (range, outline) = (grid.and_then(Grid::range), grid.and_then(|grid| grid.outline.clone()));
         Some(ShownMap {
             quantity,
             picture: self.pages.author.heat.picture(ctx, map_color).map(egui::TextureHandle::id),
             range,
+            outline,
         })
     }
 }

@@ -5,9 +5,11 @@ use std::sync::Arc;
 use shagreen_formats::actuator_toml::built_in_actuators;
 
 use super::Window;
-use crate::author::authored_panel::copy_of;
+use crate::author::inspector::name_field;
+use crate::author::new_texture::copy_of;
 use crate::author::texture_sheet::TextureSheet;
 use crate::command::Command;
+use crate::look::motion;
 use crate::panel::Panel;
 use crate::session::OutputChoice;
 use crate::session::kept_path::kept_path;
@@ -39,11 +41,42 @@ impl Window {
         ctx.set_theme(if dark { egui::Theme::Light } else { egui::Theme::Dark });
     }
 
+    fn toggle_motion(&mut self, ctx: &egui::Context) {
+        let is_reduced = !motion::is_reduced(ctx);
+        self.files.settings.reduces_motion = Some(is_reduced);
+        motion::set_reduced(ctx, is_reduced);
+    }
+
     /// Adds a copy of the selected authored texture.
     fn duplicate(&mut self, ctx: &egui::Context) {
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         let copy = copy_of(&panel, self.project.texture());
         self.carry_out(Command::Edit(Edit::Author(copy)), ctx);
+    }
+
+    /// Adds the path of the selected authored texture to the list of textures.
+    fn keep_path(&mut self, ctx: &egui::Context) {
+        match kept_path(&self.project, &self.session) {
+            Some(Ok(entry)) => {
+                self.carry_out(Command::Edit(Edit::AddTextures(vec![Arc::new(entry)])), ctx);
+            }
+            Some(Err(error)) => self.session.say(error.to_string()),
+            None => {}
+        }
+    }
+
+    /// Closes the open sheet, and remembers the folder of an export.
+    fn close_sheet(&mut self) {
+        let folder = match &self.sheet {
+            Sheet::Save(sheet) => sheet.folder_of_export(),
+            Sheet::Export(sheet) => sheet.folder_of_export(),
+            _ => None,
+        };
+        if let Some(folder) = folder {
+            self.exports_folder = folder.to_owned();
+        }
+        self.sheet = Sheet::Closed;
+        self.files.stay();
     }
 
     /// Executes a command.
@@ -60,6 +93,15 @@ impl Window {
                 self.history.apply(&mut self.project, edit, self.gesture.current());
             }
             Command::OpenTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::new(id))),
+            Command::RenameAuthored(key) => {
+                if key != self.project.texture().key {
+                    self.carry_out(Command::Edit(Edit::Select(key)), ctx);
+                }
+                // The inspector shows the selected texture, and not one that a comparison plays.
+                self.compare.end();
+                ctx.memory_mut(|memory| memory.request_focus(name_field()));
+            }
+            Command::Clipboard(command) => self.carry_out_clipboard(command, ctx),
             Command::RenameTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::to_rename(id))),
             Command::OpenShortcuts => self.sheet = Sheet::Shortcuts,
             Command::OpenPalette => self.sheet = Sheet::Palette(PaletteSheet::default()),
@@ -88,13 +130,7 @@ impl Window {
             }
             Command::TogglePathTool => self.pages.author.canvas.tool.toggle(),
             Command::PlayPath(is_played) => self.session.play_path(is_played),
-            Command::KeepPath => match kept_path(&self.project, &self.session) {
-                Some(Ok(entry)) => {
-                    self.carry_out(Command::Edit(Edit::AddTextures(vec![Arc::new(entry)])), ctx);
-                }
-                Some(Err(error)) => self.session.say(error.to_string()),
-                None => {}
-            },
+            Command::KeepPath => self.keep_path(ctx),
             Command::ToggleMute => self.session.toggle_mute(),
             Command::ToggleTheme => self.toggle_theme(ctx),
             Command::DismissMessage => self.session.forget_message(),
@@ -112,6 +148,7 @@ impl Window {
             Command::DuplicateTexture => self.duplicate(ctx),
             Command::ToggleDragStroke => self.files.settings.is_silent_while_dragging ^= true,
             Command::ToggleHover => self.files.settings.plays_on_hover ^= true,
+            Command::ToggleMotion => self.toggle_motion(ctx),
             Command::ToggleFreeze => {
                 let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
                 self.pages.stage.scope.toggle_freeze(&panel);
@@ -136,15 +173,7 @@ impl Window {
             Command::SaveFigure(figure) => {
                 self.sheet = Sheet::Save(SaveSheet::figure(figure, &self.exports_folder));
             }
-            Command::CloseSheet => {
-                if let Sheet::Save(sheet) = &self.sheet
-                    && let Some(folder) = sheet.folder_of_export()
-                {
-                    self.exports_folder = folder.to_owned();
-                }
-                self.sheet = Sheet::Closed;
-                self.files.stay();
-            }
+            Command::CloseSheet => self.close_sheet(),
         }
     }
 }

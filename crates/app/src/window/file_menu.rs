@@ -2,16 +2,18 @@
 
 use std::path::Path;
 
-use egui::{Button, Label, RichText, Ui};
+use egui::containers::menu::{MenuButton, MenuConfig};
+use egui::{Button, Label, PopupCloseBehavior, RichText, TextEdit, Ui};
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::settings::Settings;
-use shagreen_studio::export::FORMATS;
+use shagreen_studio::export::WAV;
 
 use crate::command::{Command, FileCommand};
+use crate::look::motion::is_reduced;
 use crate::look::theme::tokens;
 use crate::state::document::Document;
 use crate::state::edit::Edit;
-use crate::strings::{document as strings, gallery, signal};
+use crate::strings::{document as strings, export, gallery, motion};
 
 /// Maximum number of recent projects in the menu.
 const MOST_RECENT: usize = 6;
@@ -51,15 +53,9 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
         ui.separator();
         commands.extend(entry(ui, strings::SAVE, &Command::File(FileCommand::Save)).asked);
         commands.extend(entry(ui, strings::SAVE_AS, &Command::File(FileCommand::SaveAs)).asked);
-        let export = Command::File(FileCommand::ExportSignal);
+        let to_export = Command::File(FileCommand::Export(WAV.id));
         ui.add_enabled_ui(files.can_export, |ui| {
-            commands.extend(entry(ui, signal::EXPORT, &export).on_hover(signal::EXPORT_HELP));
-            ui.menu_button(signal::EXPORT_TEXTURE, |ui| {
-                for format in FORMATS {
-                    let export = Command::File(FileCommand::ExportTexture(format.id()));
-                    commands.extend(entry(ui, format.name(), &export).on_hover(format.help()));
-                }
-            });
+            commands.extend(entry(ui, export::EXPORT, &to_export).on_hover(export::EXPORT_HELP));
         });
         ui.separator();
         let open = files.document.path();
@@ -88,6 +84,7 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
                 Command::ToggleDragStroke,
             ),
             (strings::HOVER, strings::HOVER_HELP, files.settings.plays_on_hover, Command::ToggleHover),
+            (motion::REDUCE, motion::REDUCE_HELP, is_reduced(ui.ctx()), Command::ToggleMotion),
         ] {
             if ui.add(Button::selectable(is_on, name)).on_hover_text(help).clicked() {
                 commands.push(command);
@@ -116,13 +113,30 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
     MenuOutcome { commands, area: menu.response.rect }
 }
 
-/// Draws the name of the project, with a dot for unsaved changes. It is cut off where there is no room.
-pub(crate) fn project_name_ui(ui: &mut Ui, document: &Document) {
+/// Draws the name of the project, with a dot for unsaved changes; a click opens the notes on the project. The name is
+/// cut off where there is no room.
+pub(crate) fn project_name_ui(ui: &mut Ui, project: &Project, document: &Document) -> Option<Command> {
     let dot = if document.is_changed() { " •" } else { "" };
     let name = RichText::new(format!("{}{dot}", document.name())).strong();
-    let path = document.path().map_or(strings::UNTITLED.to_owned(), |path| path.display().to_string());
+    let path = document.path().map_or_else(|| document.name(), |path| path.display().to_string());
     let help = strings::kept_at(&path, document.is_changed());
-    ui.add(Label::new(name).truncate().selectable(false)).on_hover_text(help);
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let button = MenuButton::from_button(Button::new(name).truncate().frame_when_inactive(false));
+    let mut asked = None;
+    let (response, _) = button.config(config).ui(ui, |ui| {
+        ui.set_width(WIDTH);
+        ui.add(Label::new(RichText::new(strings::PROJECT_NOTES).strong()).selectable(false));
+        let mut notes = project.notes.clone();
+        let field = TextEdit::multiline(&mut notes)
+            .hint_text(strings::PROJECT_NOTES_HINT)
+            .desired_rows(6)
+            .desired_width(f32::INFINITY);
+        if ui.add(field).accessible_name(strings::PROJECT_NOTES).changed() {
+            asked = Some(Command::Edit(Edit::SetProjectNotes(notes)));
+        }
+    });
+    response.on_hover_text(strings::with_notes(&help, &project.notes));
+    asked
 }
 
 struct Entry {

@@ -1,32 +1,29 @@
 //! Commands about files: opening, saving and leaving projects. Unsaved changes are never discarded without asking.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use egui::{Context, ViewportCommand};
 use shagreen_formats::imported::Imported;
-use shagreen_formats::library::id_from_name;
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary};
 
-use shagreen_studio::export;
 use shagreen_studio::file::one_line;
-use shagreen_studio::open::{Opened, OpenedProject, open};
+use shagreen_studio::open::{LibraryOrigin, Opened, OpenedProject, open};
+use shagreen_studio::permitted_libraries::Permitted;
 use shagreen_studio::project::new_project;
 
 use super::Window;
 use crate::command::{Command, FileCommand};
-use crate::panel::Panel;
 use crate::sheets::Sheet;
 use crate::sheets::command_for;
 use crate::sheets::gallery_sheet::GallerySheet;
 use crate::sheets::open_sheet::OpenSheet;
+use crate::sheets::outside_library::OutsideLibrarySheet;
 use crate::sheets::save::SaveSheet;
 use crate::state::document::{Came, DocumentFile};
 use crate::state::edit::Edit;
+use crate::state::files::Reading;
 use crate::state::history::History;
 use crate::state::leave::Leave;
-use crate::state::signal_export::SignalExport;
-use crate::state::texture_file::TextureFile;
 use crate::strings;
 use crate::window::file_menu::kept_inside;
 
@@ -52,15 +49,12 @@ impl Window {
             FileCommand::New => match self.files.settings.template.clone() {
                 // The template is read before the open project is left, because that project may change in the
                 // meantime.
-                Some(template) => {
-                    self.files.is_beginning = true;
-                    self.files.document.open(template, ctx);
-                }
+                Some(template) => self.files.open(template, Reading::Template, ctx),
                 None => self.leave(Leave::New, ctx),
             },
             FileCommand::Quit => self.leave(Leave::Quit, ctx),
             FileCommand::AskWhatToOpen => self.sheet = Sheet::Open(OpenSheet::new(&self.usual_folder(), ctx)),
-            FileCommand::OpenGallery => self.sheet = Sheet::Gallery(GallerySheet::new()),
+            FileCommand::OpenGallery => self.sheet = Sheet::Gallery(GallerySheet::new(ctx)),
             FileCommand::BeginFromGallery(chosen) => self.leave(Leave::Gallery(chosen), ctx),
             FileCommand::Open(path) => {
                 if let Some(command) = command_for(&path) {
@@ -68,9 +62,9 @@ impl Window {
                     self.carry_out(command, ctx);
                     return;
                 }
-                (self.files.is_beginning, self.files.reloading) = (false, None);
-                self.files.document.open(path, ctx);
+                self.files.open(path, Reading::Open, ctx);
             }
+            FileCommand::AnswerLibrary(answer) => self.answer_library(answer, ctx),
             // The file that is being written would count as changed by another window.
             FileCommand::Save if self.files.document.is_saving() => self.files.saves_again = true,
             FileCommand::Save => match self.files.document.path().map(Path::to_owned) {
@@ -79,9 +73,7 @@ impl Window {
             },
             FileCommand::Reload => {
                 if let Sheet::Conflict(conflict) = std::mem::take(&mut self.sheet) {
-                    self.files.is_beginning = false;
-                    self.files.document.open(conflict.path.clone(), ctx);
-                    self.files.reloading = Some(conflict.path);
+                    self.files.open(conflict.path, Reading::Reload, ctx);
                 }
             }
             FileCommand::Overwrite => {
@@ -92,34 +84,7 @@ impl Window {
             FileCommand::SetTemplate(path) => self.files.settings.template = path,
             FileCommand::SaveAs => self.ask_where_to_save(),
             FileCommand::SaveTo(path) => self.files.document.save(&self.project, path, ctx),
-            FileCommand::ExportSignal => {
-                let compared = self.compared_texture();
-                let contact = self.pages.stage.pad.contact(&self.session);
-                match self.session.signal(&self.project, compared.as_deref(), contact) {
-                    Ok(signal) => {
-                        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
-                        let name = id_from_name(&panel.heard_name());
-                        let path = self.exports_folder.join(name).with_extension("wav");
-                        // A blind comparison that hides the others hides this one too.
-                        let all = self.session.authored_signals(&self.project, contact).unwrap_or_default();
-                        self.sheet = Sheet::Save(SaveSheet::signal(SignalExport::new(signal, all), &path));
-                    }
-                    Err(reason) => self.session.say(reason),
-                }
-            }
-            FileCommand::ExportTexture(format) => {
-                let compared = self.compared_texture();
-                let entry = self.session.texture_entry(&self.project, compared.as_deref());
-                match (entry, export::format(format)) {
-                    (Ok(entry), Some(format)) => {
-                        let path = self.exports_folder.join(&entry.id).with_extension(format.ending());
-                        let texture = TextureFile { entry: Arc::new(entry), format };
-                        self.sheet = Sheet::Save(SaveSheet::texture(texture, &path));
-                    }
-                    (Err(reason), _) => self.session.say(reason),
-                    (Ok(_), None) => {}
-                }
-            }
+            FileCommand::Export(format) => self.open_export(format),
             FileCommand::KeepLibraryInside => {
                 if let Some(edit) = kept_inside(&self.project) {
                     self.carry_out(Command::Edit(edit), ctx);
@@ -148,12 +113,12 @@ impl Window {
 
     fn take_file(&mut self, came: Came, ctx: &Context) {
         // The end of a save operation does not end the reading of a template.
-        let is_read = matches!(came, Came::Opened(..) | Came::NotOpened(_));
-        let is_beginning = is_read && std::mem::take(&mut self.files.is_beginning);
-        let reloading = if is_read { self.files.reloading.take() } else { None };
+        let is_read = matches!(came, Came::Opened(..) | Came::NotOpened(_) | Came::Outside { .. });
+        let reading = if is_read { self.files.take_reading() } else { Reading::default() };
+        let is_beginning = reading == Reading::Template;
         match came {
             Came::Saved(path) => {
-                self.files.settings.note_project(&path);
+                self.files.note_saved(&path, &self.project);
                 if matches!(&self.sheet, Sheet::Save(sheet) if sheet.is_of_project()) {
                     self.sheet = Sheet::Closed;
                 }
@@ -177,10 +142,10 @@ impl Window {
                 }
             }
             Came::Opened(Opened::Project(opened), path) => {
-                let is_reload = reloading.is_some_and(|reloading| reloading == path);
-                self.files.waiting = Some((opened, (!is_beginning).then_some(path)));
+                let is_copy = is_beginning || opened.origin == LibraryOrigin::Starter;
+                self.files.waiting = Some((opened, (!is_copy).then_some(path)));
                 // Kept aside only now, so that no change is lost that was made while the file was read.
-                match is_reload.then(|| self.files.keep_aside(&self.project)) {
+                match (reading == Reading::Reload).then(|| self.files.keep_aside(&self.project)) {
                     Some(Ok(())) => self.go(Leave::Open, ctx),
                     Some(Err(reason)) => {
                         self.session.say(strings::conflict::not_kept(&reason));
@@ -199,9 +164,13 @@ impl Window {
                 let library = ProjectLibrary::File(value.into());
                 self.carry_out(Command::Edit(Edit::OpenLibrary(library)), ctx);
             }
+            Came::Outside { project, library } => {
+                self.sheet = Sheet::OutsideLibrary(OutsideLibrarySheet::new(project, library, reading));
+            }
             Came::NotOpened(reason) if is_beginning => self.begin_as_usual(&reason, ctx),
             Came::NotOpened(reason) => match &mut self.sheet {
                 Sheet::Open(sheet) => sheet.say(reason),
+                Sheet::OutsideLibrary(sheet) => sheet.say(reason),
                 _ => self.session.say(reason),
             },
         }
@@ -230,13 +199,21 @@ impl Window {
             Leave::New => self.begin(new_project(), None),
             Leave::Open => {
                 if let Some((opened, path)) = self.files.waiting.take() {
-                    let OpenedProject { project, warnings, sha256 } = *opened;
-                    self.begin(project, path.map(|path| DocumentFile { path, sha256: Some(sha256) }));
+                    let OpenedProject { project, warnings, sha256, origin } = *opened;
+                    let file = path.map(|path| DocumentFile { path, sha256: Some(sha256) });
+                    match origin {
+                        LibraryOrigin::Project => self.files.begin(&project, file),
+                        LibraryOrigin::Chosen | LibraryOrigin::Starter => self.files.begin_unsaved(file),
+                    }
+                    self.show_project(project);
                     self.say_warnings(&warnings);
                 }
             }
             Leave::Gallery(chosen) => match chosen.read() {
-                Ok(project) => self.begin(project, None),
+                Ok(project) => {
+                    self.begin(project, None);
+                    self.files.document.set_title(chosen.title);
+                }
                 Err(error) => self.session.say(error.to_string()),
             },
             Leave::Quit => {
@@ -265,7 +242,7 @@ impl Window {
     /// Opens a recovered project. The other leftovers remain, and the next window offers them.
     fn recover(&mut self, index: usize) {
         let Sheet::Recovered(leftovers) = &mut self.sheet else { return };
-        match open(&leftovers[index].path()) {
+        match open(&leftovers[index].path(), &Permitted::All) {
             Ok(Opened::Project(opened)) => {
                 let leftover = leftovers.remove(index);
                 self.files.begin_recovered(leftover);
@@ -286,7 +263,7 @@ impl Window {
 
     fn ask_where_to_save(&mut self) {
         let path = self.files.document.path().map_or_else(
-            || self.usual_folder().join(strings::document::UNTITLED).with_extension(EXTENSION),
+            || self.usual_folder().join(self.files.document.name()).with_extension(EXTENSION),
             Path::to_owned,
         );
         self.sheet = Sheet::Save(SaveSheet::project(&self.project, &path));

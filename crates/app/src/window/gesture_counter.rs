@@ -26,6 +26,11 @@ impl GestureCounter {
         self.was_holding = holding;
     }
 
+    /// Begins another gesture, although a text field may keep the focus: the result of a job is a step of its own.
+    pub(super) fn begin_another(&mut self) {
+        self.number += 1;
+    }
+
     /// Present gesture.
     pub(super) fn current(&self) -> Gesture {
         Gesture(self.number)

@@ -1,41 +1,64 @@
 //! Preview: the point plays while it is dragged, and a texture plays while the pointer rests on it. Both use the automatic
-//! stroke, and both can be turned off.
+//! stroke, and both can be turned off. A project of the gallery plays while the pointer rests on it, too.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::Context;
 use shagreen_formats::library::TextureEntry;
-use shagreen_formats::project::Project;
+use shagreen_formats::project::{AuthoredTexture, Project};
 
 use super::Window;
 use crate::command::Command;
+use crate::sheets::Sheet;
 use crate::state::edit::Edit;
 use crate::workspace::Workspace;
 
 /// Time for which the pointer must rest on a texture.
 const REST: Duration = Duration::from_millis(350);
 
+/// What can play under the pointer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Pointed {
+    /// Texture of the list, by index.
+    Texture(usize),
+    /// Project of the gallery, by index.
+    Project(usize),
+}
+
 /// What is previewed.
 #[derive(Default)]
 pub(super) struct Preview {
     /// Whether the point is being dragged.
     is_dragging: bool,
-    /// Texture under the pointer, and when the pointer came to it.
-    pointed: Option<(usize, Instant)>,
+    /// What is under the pointer, and when the pointer came to it.
+    pointed: Option<(Pointed, Instant)>,
+    /// Selected texture of the project of the gallery under the pointer.
+    in_gallery: Option<Arc<AuthoredTexture>>,
     /// Whether the automatic stroke was started by the preview, which will stop it.
     is_stroking: bool,
 }
 
 impl Preview {
-    /// Texture that plays because the pointer rests on it.
-    fn auditioned(&self) -> Option<usize> {
-        self.pointed.filter(|(_, since)| since.elapsed() >= REST).map(|(texture, _)| texture)
+    /// What plays because the pointer rests on it.
+    fn auditioned(&self) -> Option<Pointed> {
+        self.pointed.filter(|(_, since)| since.elapsed() >= REST).map(|(pointed, _)| pointed)
+    }
+
+    /// Texture of the gallery that plays instead of the texture of the open project.
+    pub(super) fn gallery_texture(&self) -> Option<Arc<AuthoredTexture>> {
+        let is_played = matches!(self.auditioned(), Some(Pointed::Project(_)));
+        self.in_gallery.clone().filter(|_| is_played)
     }
 
     /// The project as it plays: with the texture under the pointer alone, if it is previewed.
     pub(super) fn applied_to<'a>(&self, project: &'a Project, textures: &[TextureEntry]) -> Cow<'a, Project> {
-        match self.auditioned().and_then(|texture| textures.get(texture)) {
+        let entry = match self.auditioned() {
+            Some(Pointed::Texture(texture)) => textures.get(texture),
+            Some(Pointed::Project(_)) | None => None,
+        };
+        match entry {
             Some(entry) => Cow::Owned(Project { solo: Some(entry.id.clone()), ..project.clone() }),
             None => Cow::Borrowed(project),
         }
@@ -43,6 +66,19 @@ impl Preview {
 }
 
 impl Window {
+    /// Index and selected texture of the project of the gallery under the pointer. `None` if the textures of the open
+    /// project have other positions, because the session then cannot play it.
+    fn pointed_in_gallery(&self) -> Option<(usize, Arc<AuthoredTexture>)> {
+        let Sheet::Gallery(sheet) = &self.sheet else { return None };
+        let (index, chosen) = sheet.pointed()?;
+        let open = &self.project;
+        let can_play = open.library == chosen.library
+            && open.axes == chosen.axes
+            && open.joined.is_empty()
+            && open.space.is_none();
+        can_play.then(|| (index, Arc::clone(&chosen.authored[chosen.selected])))
+    }
+
     /// Starts and stops the stroke of the preview. `commands` are those of this frame.
     pub(super) fn follow_preview(&mut self, commands: &mut Vec<Command>, ctx: &Context) {
         let is_author = self.pages.workspace == Workspace::Author && !self.sheet.is_open();
@@ -52,9 +88,12 @@ impl Window {
         let dragged = self.preview.is_dragging || commands.iter().any(is_moved);
         self.preview.is_dragging = may_drag && is_held && dragged && ctx.dragged_id().is_some();
         let may_point = is_author && self.files.settings.plays_on_hover && !is_held;
-        let pointed = self.pages.author.canvas.pointed.filter(|_| may_point);
-        if self.preview.pointed.map(|(texture, _)| texture) != pointed {
-            self.preview.pointed = pointed.map(|texture| (texture, Instant::now()));
+        let pointed = self.pages.author.canvas.pointed.filter(|_| may_point).map(Pointed::Texture);
+        let in_gallery = self.pointed_in_gallery().filter(|_| !is_held);
+        let pointed = in_gallery.as_ref().map(|(index, _)| Pointed::Project(*index)).or(pointed);
+        self.preview.in_gallery = in_gallery.map(|(_, texture)| texture);
+        if self.preview.pointed.map(|(before, _)| before) != pointed {
+            self.preview.pointed = pointed.map(|pointed| (pointed, Instant::now()));
         }
         if self.preview.pointed.is_some() {
             ctx.request_repaint_after(REST);

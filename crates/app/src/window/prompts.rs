@@ -8,7 +8,7 @@ use shagreen_formats::picture::Picture;
 use shagreen_formats::project::AuthoredTexture;
 
 use super::Window;
-use crate::author::authored_panel::next_color;
+use crate::author::new_texture::next_color;
 use crate::author::prompt::{axis_names, has_still};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
@@ -68,6 +68,7 @@ impl Window {
                 ..AuthoredTexture::new(0, &free_name(&guess.name, is_taken))
             })]
         };
+        self.gesture.begin_another();
         for edit in edits {
             self.carry_out(Command::Edit(edit), ctx);
         }

@@ -40,6 +40,7 @@ impl Window {
             }
             SignalsCommand::MakeB(how) => self.pages.signals.make_b(how, ctx),
             SignalsCommand::Keep(slot) => self.keep_relief(slot, ctx),
+            SignalsCommand::NoteExported(signal) => self.pages.signals.note_exported(signal),
         }
     }
 

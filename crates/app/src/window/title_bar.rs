@@ -1,6 +1,6 @@
 //! Title bar: file menu, workspaces, undo, output and help.
 
-use egui::{RichText, Ui};
+use egui::{RichText, Ui, vec2};
 
 use super::Window;
 use crate::command::Command;
@@ -61,29 +61,45 @@ impl Window {
                     commands.push(command);
                 }
             }
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let to = if ui.visuals().dark_mode { strings::TO_LIGHT } else { strings::TO_DARK };
-                commands.extend(help_menu(ui));
-                if ui.button(to).clicked() {
-                    commands.push(Command::ToggleTheme);
-                }
-                let keys = Command::OpenDevices.shortcut_text(ui.ctx());
-                let help = format!("{} ({keys})", strings::devices::OPEN_HELP);
-                if ui.button(strings::devices::OPEN).on_hover_text(help).clicked() {
-                    commands.push(Command::OpenDevices);
-                }
-                let mute = if self.session.is_muted() { strings::UNMUTE } else { strings::MUTE };
-                let mute = ui.selectable_label(self.session.is_muted(), mute);
-                if mute.on_hover_text(strings::MUTE_HELP).clicked() {
-                    commands.push(Command::ToggleMute);
-                }
-                // In the middle, so that a long name moves no button.
-                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
-                    ui.add_space(10.0);
-                    project_name_ui(ui, &self.files.document);
-                });
+            // The name is in the middle, so that a long one moves no button. The buttons follow in the order in which
+            // they are read, which needs their width: that of the last frame.
+            ui.add_space(10.0);
+            let key = ui.scope_id().with("width of the buttons at the right");
+            let width: f32 = ui.data(|data| data.get_temp(key)).unwrap_or_default();
+            let room = vec2((ui.available_width() - width).max(0.0), ui.available_height());
+            ui.allocate_ui_with_layout(room, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                ui.set_min_size(room);
+                commands.extend(project_name_ui(ui, &self.project, &self.files.document));
             });
+            let begin = ui.cursor().left();
+            commands.extend(self.device_buttons(ui));
+            commands.extend(help_menu(ui));
+            let drawn = ui.min_rect().right() - begin + ui.spacing().item_spacing.x;
+            if (drawn - width).abs() > 0.5 {
+                ui.data_mut(|data| data.insert_temp(key, drawn));
+                ui.ctx().request_discard("the width of the title bar's buttons has changed");
+            }
         });
+        commands
+    }
+
+    /// Draws the buttons for the output, the devices and the theme.
+    fn device_buttons(&self, ui: &mut Ui) -> Vec<Command> {
+        let mut commands = Vec::new();
+        let mute = if self.session.is_muted() { strings::UNMUTE } else { strings::MUTE };
+        let mute = ui.selectable_label(self.session.is_muted(), mute);
+        if mute.on_hover_text(strings::MUTE_HELP).clicked() {
+            commands.push(Command::ToggleMute);
+        }
+        let keys = Command::OpenDevices.shortcut_text(ui.ctx());
+        let help = format!("{} ({keys})", strings::devices::OPEN_HELP);
+        if ui.button(strings::devices::OPEN).on_hover_text(help).clicked() {
+            commands.push(Command::OpenDevices);
+        }
+        let to = if ui.visuals().dark_mode { strings::TO_LIGHT } else { strings::TO_DARK };
+        if ui.button(to).clicked() {
+            commands.push(Command::ToggleTheme);
+        }
         commands
     }
 }

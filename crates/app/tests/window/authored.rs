@@ -183,13 +183,26 @@ fn two_textures_are_compared() {
     click(&mut harness, compare::BLIND);
     click(&mut harness, &compare::hear("A"));
     assert!(window(&harness).session().authored().is_none(), "nobody sees which it is");
+    assert!(harness.query_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).is_none());
     click(&mut harness, compare::BLIND);
     assert!(heard(&harness) == first, "revealed");
-    // An edit ends the comparison, because it applies to the selected texture.
-    slide(&mut harness, strings::ROUGH_SMOOTH, 81.0);
-    assert_ne!(heard(&harness), first);
-    let first_name = words::on_canvas(&window(&harness).project().authored[0].name.clone());
-    take_of_menu(&mut harness, &first_name, &compare::compare_as("B"));
+    // The inspector shows the audible texture. It can be edited only after it is selected, which ends the comparison.
+    let names = names(&harness);
+    let said = compare::you_hear("A", &names[0]);
+    assert!(says(&harness, &said));
+    assert_eq!(slider(&harness, strings::ROUGH_SMOOTH), 20.0);
+    slide(&mut harness, strings::ROUGH_SMOOTH, 60.0);
+    let authored = window(&harness).project().authored.iter();
+    let places: Vec<f64> = authored.map(|texture| texture.at.rough_smooth).collect();
+    assert_eq!(places, [20.0, 80.0], "neither is edited");
+    click(&mut harness, compare::EDIT);
+    assert_eq!((window(&harness).project().selected, heard(&harness)), (0, first.clone()));
+    assert!(!says(&harness, &said));
+    slide(&mut harness, strings::ROUGH_SMOOTH, 60.0);
+    assert_ne!(heard(&harness), first, "now it is edited");
+    key(&mut harness, Modifiers::COMMAND, Key::Z);
+    click(&mut harness, &words::select(&names[1]));
+    take_of_menu(&mut harness, &words::on_canvas(&names[0]), &compare::compare_as("B"));
     click(&mut harness, &compare::hear("B"));
     assert_eq!(heard(&harness), first, "they have changed sides");
 }

@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use shagreen_app::strings::{help, import, signal};
+use shagreen_app::strings::{export, help, import};
 use shagreen_app::workspace::Workspace;
 use shagreen_formats::hatt::read_hatt;
 use shagreen_studio::export::FORMATS;
@@ -83,7 +83,7 @@ fn the_authored_texture_is_exported_in_every_format() {
         harness.key_press(Key::Enter);
         harness.run_steps(4);
         let path = folder.path().join("mine").with_extension(format.ending());
-        enter_path(&mut harness, signal::SAVE_TEXTURE_PATH, &path);
+        enter_path(&mut harness, export::PATH, &path);
         let saved = import::saved(&path.display().to_string());
         wait(&mut harness, "it is exported", |h| h.query_by_label(&saved).is_some());
         let bytes = std::fs::read(&path).unwrap();

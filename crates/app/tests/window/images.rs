@@ -115,11 +115,12 @@ fn sheets_and_menus_look_as_they_were_approved() {
     );
     click(&mut harness, gallery::GALLERY);
     harness.run_steps(3);
+    wait(&mut harness, "the pictures are made", |h| !says(h, gallery::MAKING));
     look(
         &mut harness,
         &mut results,
         "gallery_dark",
-        Rect::from_min_max(pos2(260.0, 90.0), pos2(1020.0, 630.0)),
+        Rect::from_min_max(pos2(160.0, 30.0), pos2(1120.0, 690.0)),
     );
     click(&mut harness, gallery::CLOSE);
     harness.run_steps(3);

@@ -28,7 +28,7 @@ fn starter(id: &str) -> TextureEntry {
 
 /// Simulated recording of a starter texture, stroked back and forth at many speeds and forces. The unit of acceleration
 /// is not stated.
-fn recording(id: &str, seconds: f64, rate: Hertz) -> String {
+pub(crate) fn recording(id: &str, seconds: f64, rate: Hertz) -> String {
     let prepared = Plane::new(&starter(id).model).prepare();
     let speed_mm_per_s = |t: f64| 20.0 + 180.0 * (0.9 * t).sin().powi(2);
     let force_n = |t: f64| 1.2 + 0.8 * (0.23 * t).sin();

@@ -10,23 +10,23 @@ use shagreen_app::choices::tour::Step;
 use shagreen_app::state::files::StoragePaths;
 use shagreen_app::state::recovery::INTERVAL;
 use shagreen_app::strings;
-use shagreen_app::strings::{authored, document, gallery, help, import, signal};
+use shagreen_app::strings::{document, gallery, help};
 use shagreen_formats::gallery::GALLERY;
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::starter::starter_bytes;
-use shagreen_formats::wav::SidecarV1;
 use shagreen_studio::open::{self, Opened};
+use shagreen_studio::permitted_libraries::Permitted;
 use shagreen_studio::project::new_project;
 
 use crate::support::{
-    Author, author, author_of, begin, click, drop_files, enter_path, says, unnamed_controls, wait,
-    wait_for_field, window, write_into,
+    Author, author, author_of, begin, click, drop_files, enter_path, says, unnamed_controls, wait, window,
+    write_into,
 };
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
 
 /// Renames the authored texture and moves the focus away.
-fn rename(harness: &mut Author, name: &str) {
+pub(crate) fn rename(harness: &mut Author, name: &str) {
     write_into(harness, strings::NAME, name);
     harness.key_press(Key::Enter);
     harness.run_steps(3);
@@ -39,7 +39,7 @@ fn keys(harness: &mut Author, modifiers: Modifiers, key: Key) {
 }
 
 /// Clicks an entry of the file menu.
-fn menu(harness: &mut Author, entry: &str) {
+pub(crate) fn menu(harness: &mut Author, entry: &str) {
     click(harness, document::FILE);
     harness.run_steps(2);
     assert_eq!(unnamed_controls(harness), Vec::<String>::new());
@@ -59,13 +59,13 @@ fn wait_until_saved(harness: &mut Author) {
 }
 
 fn project_in(path: &Path) -> Project {
-    match open::open(path).unwrap() {
+    match open::open(path, &Permitted::All).unwrap() {
         Opened::Project(opened) => opened.project,
         Opened::Library(_) => panic!("a project"),
     }
 }
 
-fn open(harness: &mut Author, path: &Path) {
+pub(crate) fn open(harness: &mut Author, path: &Path) {
     keys(harness, Modifiers::COMMAND, Key::O);
     enter_path(harness, document::OPEN_PATH, path);
     wait(harness, "it is read", |h| !window(h).document().is_opening());
@@ -292,6 +292,9 @@ fn work_survives_a_crash() {
 
     // The settings contain the project as recent.
     let mut harness = author_of(kept(), SIZE);
+    // Ends the tour.
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
     click(&mut harness, document::FILE);
     harness.run_steps(2);
     click(&mut harness, "saved");
@@ -324,7 +327,7 @@ fn the_first_steps_are_shown_once() {
         let [heading, _] = help::step(step);
         assert!(says(&harness, heading) && says(&harness, &help::progress(number + 1, 4)), "{heading}");
         assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
-        // The window stays usable during the tour.
+        // Keyboard and screen reader reach everything during the tour.
         let value = 10.0 + 20.0 * number as f64;
         harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(value);
         harness.run_steps(3);
@@ -446,99 +449,4 @@ fn the_scale_is_remembered() {
     wait(&mut harness, "it is written", |_| {
         std::fs::read_to_string(&settings).is_ok_and(|text| text.contains("\"scale\": 1.25"))
     });
-}
-
-#[test]
-fn all_authored_textures_are_exported_at_once() {
-    let folder = tempfile::tempdir().unwrap();
-    let mut harness = author();
-    wait_for_field(&mut harness);
-    rename(&mut harness, "Oak");
-    click(&mut harness, authored::ADD);
-    harness.run_steps(4);
-    rename(&mut harness, "Oak");
-    wait_for_field(&mut harness);
-    menu(&mut harness, signal::EXPORT);
-    harness.run_steps(4);
-    click(&mut harness, &signal::all_of(2));
-    click(&mut harness, signal::LOOP);
-    harness.run_steps(2);
-    let path = folder.path().join("any.wav");
-    enter_path(&mut harness, signal::SAVE_PATH, &path);
-    let saved = import::saved(&path.display().to_string());
-    wait(&mut harness, "they are exported", |h| h.query_by_label(&saved).is_some());
-    let mut names: Vec<String> = std::fs::read_dir(folder.path())
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    assert_eq!(names, ["oak-2.json", "oak-2.wav", "oak.json", "oak.wav"]);
-    assert_eq!(std::fs::read(folder.path().join("oak.wav")).unwrap().len(), 68 + 4 * 240_000);
-    click(&mut harness, import::CLOSE);
-    harness.run_steps(3);
-    // They are replaced only when that was said.
-    menu(&mut harness, signal::EXPORT);
-    harness.run_steps(4);
-    click(&mut harness, &signal::all_of(2));
-    enter_path(&mut harness, signal::SAVE_PATH, &path);
-    wait(&mut harness, "it asks", |h| says(h, signal::EXISTS));
-}
-
-/// The audible texture is exported at the speed and force of the automatic stroke, and the sidecar describes the
-/// signal.
-#[test]
-fn what_is_heard_is_exported_as_a_signal() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("oak.wav");
-    let mut harness = author();
-    wait_for_field(&mut harness);
-    rename(&mut harness, "Oak copy");
-    menu(&mut harness, signal::EXPORT);
-    harness.run_steps(4);
-    let field = harness.get_by_role_and_label(Role::TextInput, signal::SAVE_PATH);
-    assert!(field.accesskit_node().value().unwrap().ends_with("oak-copy.wav"));
-    enter_path(&mut harness, signal::SAVE_PATH, &path);
-    let saved = import::saved(&path.display().to_string());
-    wait(&mut harness, "it is exported", |h| h.query_by_label(&saved).is_some());
-    click(&mut harness, import::CLOSE);
-    harness.run_steps(3);
-
-    let sidecar: SidecarV1 =
-        serde_json::from_slice(&std::fs::read(folder.path().join("oak.json")).unwrap()).unwrap();
-    assert_eq!((sidecar.rate_hz, sidecar.seconds, sidecar.at), (48_000, 5.0, Some([50.0, 50.0])));
-    assert_eq!((sidecar.trace.speed_mm_per_s[0], sidecar.blend.as_str()), (100.0, "field"));
-    assert_eq!(sidecar.label_source.as_deref(), Some("physical"));
-    let bytes = std::fs::read(&path).unwrap();
-    let (head, samples) = bytes.split_at(bytes.len() - 4 * 240_000);
-    assert!(head.starts_with(b"RIFF"));
-    let squares =
-        samples.as_chunks::<4>().0.iter().map(|bytes| f64::from(f32::from_le_bytes(*bytes)).powi(2));
-    // Players get at most −1 dB; the sidecar states the acceleration at full scale.
-    let level = sidecar.full_scale * (squares.sum::<f64>() / 240_000.0).sqrt();
-    let peak =
-        samples.as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes).abs()).fold(0.0, f32::max);
-    assert!((peak - 0.891).abs() < 1e-3, "{peak}");
-    // The level equals that of the shown spectrum, within the noise of five seconds.
-    let spectra = window(&harness).session().spectra();
-    let steps = spectra.frequencies.windows(2).map(|f| f[1].0 - f[0].0);
-    let modeled = steps.zip(&spectra.blend).map(|(df, p)| df * p).sum::<f64>().sqrt();
-    assert!((level / modeled - 1.0).abs() < 0.15, "{level} m/s² for {modeled}");
-
-    // A WAV file without a sidecar of Shagreen is not overwritten.
-    let other = folder.path().join("recorded.wav");
-    std::fs::copy(&path, &other).unwrap();
-    menu(&mut harness, signal::EXPORT);
-    write_into(&mut harness, signal::SAVE_PATH, &other.display().to_string());
-    harness.key_press(Key::Enter);
-    wait(&mut harness, "it refuses", |h| says(h, signal::NO_SIGNAL));
-    click(&mut harness, document::CANCEL);
-    harness.run_steps(4);
-
-    // Neither is another kind of file at the path of the sidecar.
-    let other = folder.path().join("other.wav");
-    std::fs::write(folder.path().join("other.json"), "{\"mine\": 1}").unwrap();
-    menu(&mut harness, signal::EXPORT);
-    enter_path(&mut harness, signal::SAVE_PATH, &other);
-    wait(&mut harness, "it refuses", |h| says(h, signal::NO_SIGNAL));
-    assert!(!other.exists());
 }

@@ -1,7 +1,7 @@
 //! Textures generated from prompts, and photos with predicted positions.
 
 use egui::accesskit::Role;
-use egui::{Key, Shape};
+use egui::{Event, Key, Shape};
 use egui_kittest::kittest::Queryable as _;
 use shagreen_app::author::prompt::Origin;
 use shagreen_app::strings;
@@ -96,6 +96,54 @@ fn words_that_say_nothing_are_answered_and_earlier_ones_come_back() {
     click(&mut harness, words::MAKE);
     wait(&mut harness, "something was made", |h| window(h).project().authored.len() == 5);
     assert!(window(&harness).project().texture().name.starts_with(words::NOTHING_SAID));
+}
+
+/// Letters that are shortcuts elsewhere are text, also while the texture is made and afterwards.
+#[test]
+fn typing_goes_on_while_a_texture_is_made_and_each_result_is_one_step() {
+    let mut harness = author();
+    write_into(&mut harness, words::FIELD, "rough");
+    harness.key_press(Key::Enter);
+    harness.run_steps(1);
+    let type_m = |harness: &mut Author| {
+        harness.key_press(Key::M);
+        harness.event(Event::Text("m".to_owned()));
+        harness.run_steps(1);
+        assert!(!window(harness).session().is_muted(), "M is a letter here");
+        assert!(harness.get_by_role_and_label(Role::TextInput, words::FIELD).is_focused());
+    };
+    type_m(&mut harness);
+    wait(&mut harness, "it was made", |h| window(h).project().authored.len() == 2);
+    type_m(&mut harness);
+    let typed = harness.get_by_role_and_label(Role::TextInput, words::FIELD).value();
+    assert_eq!(typed.as_deref(), Some("roughmm"));
+    harness.key_press(Key::Enter);
+    wait(&mut harness, "another was made", |h| window(h).project().authored.len() == 3);
+    click(&mut harness, strings::UNDO);
+    assert_eq!(window(&harness).project().authored.len(), 2, "each is undone on its own");
+    // Elsewhere the letter is a shortcut again.
+    harness.run_steps(2);
+    harness.key_press(Key::M);
+    harness.run_steps(2);
+    assert!(window(&harness).session().is_muted());
+}
+
+/// A search field loses the focus by Enter. A key in the frame after that is not a shortcut, but later ones are.
+#[test]
+fn a_key_in_the_frame_after_a_text_field_is_not_a_shortcut() {
+    let mut harness = author();
+    write_into(&mut harness, strings::SEARCH, "wood");
+    harness.key_down(Key::Enter);
+    harness.step();
+    assert!(!harness.get_by_role_and_label(Role::TextInput, strings::SEARCH).is_focused());
+    harness.key_down(Key::M);
+    harness.step();
+    assert!(!window(&harness).session().is_muted());
+    harness.key_up(Key::Enter);
+    harness.key_up(Key::M);
+    harness.key_press(Key::M);
+    harness.run_steps(2);
+    assert!(window(&harness).session().is_muted());
 }
 
 #[test]

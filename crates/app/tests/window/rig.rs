@@ -206,6 +206,9 @@ fn settings_that_cannot_be_read_open_no_output_and_stay() {
             assert!(says(&harness, &path.display().to_string()) && says(&harness, devices::OPEN));
             assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
             wait(&mut harness, "the outputs are known", |h| !window(h).session().outputs().is_empty());
+            // The tour begins if the settings do not say that it was seen.
+            harness.key_press(Key::Escape);
+            harness.run_steps(2);
             choose(&mut harness, strings::OUTPUT, SILENT);
             wait(&mut harness, "it opens", |h| window(h).session().status().is_some());
             wait(&mut harness, "it is remembered", |_| {

@@ -7,8 +7,9 @@ use shagreen_app::choices::signals::Slot;
 use shagreen_app::choices::signals::Tool;
 use shagreen_app::choices::signals::View;
 use shagreen_app::state::bench_signal::BenchSignal;
-use shagreen_app::strings::{self, signals};
+use shagreen_app::strings::{self, differences, signals};
 use shagreen_app::workspace::Workspace;
+use shagreen_core::signals::quality::proportion_correct;
 use shagreen_formats::wav::{SidecarV1, write_wav};
 
 use crate::support::{
@@ -67,7 +68,11 @@ fn what_is_heard_goes_through_the_codec_and_both_are_compared() {
     // B is A encoded at the lowest bit rate, so the curve and the pair have the same predicted d'.
     assert!((rates[0].d_prime - compared.d_prime).abs() < 1e-6);
     assert!(rates[0].d_prime > rates[4].d_prime && rates[0].snr_db < rates[4].snr_db);
-    assert!(says(&harness, &signals::d_prime(compared.d_prime)) && says(&harness, "not rated by people"));
+    assert!(says(&harness, &differences::d_prime(compared.d_prime)) && says(&harness, "not rated by people"));
+    assert!(says(&harness, &differences::answers(proportion_correct(compared.d_prime))));
+    for slot in Slot::ALL {
+        assert!(says(&harness, &differences::named(slot, &signal(&harness, slot).name)), "{slot:?} in full");
+    }
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
 }
 
@@ -129,9 +134,10 @@ fn a_spectrogram_is_painted_felt_at_once_and_taken_back() {
     assert!(painted.name.ends_with("edited") && level(painted, 0.3, 0.6) > 1.2 * before);
     assert_eq!(level(signal(&harness, Slot::A), 0.3, 0.6), before, "A stays as it is");
     assert_eq!(window(&harness).signals().felt(), Some(Slot::B), "it is felt at once");
-    // Undo applies to the spectrogram editor here, and one stroke is one step.
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    harness.run_steps(2);
+    // The only Undo button applies to the spectrogram editor here, and one stroke is one step.
+    assert_eq!(harness.get_all_by_label(strings::UNDO).count(), 1);
+    assert_eq!(harness.get_all_by_label(strings::REDO).count(), 1);
+    click(&mut harness, strings::UNDO);
     assert_eq!(level(signal(&harness, Slot::B), 0.3, 0.6), before);
     harness.key_press_modifiers(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
     harness.run_steps(2);

@@ -3,17 +3,20 @@
 use std::time::Duration;
 
 use egui::accesskit::Role;
-use egui::{Key, vec2};
+use egui::{Key, ViewportId, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shagreen_app::Begin;
+use shagreen_app::session::OutputChoice;
 use shagreen_app::state::recorded_stroke::RecordedStroke;
 use shagreen_app::strings::{self, stroke};
 use shagreen_device::touch::Touch;
 use shagreen_formats::stroke::{PressUnit, Stroke};
 use shagreen_formats::stroke_csv::read_stroke_csv;
+use shagreen_studio::project::new_project;
 
 use crate::support::{
     Author, SILENT, author, author_of, begin, choose, click, drop_files, enter_path, says, unnamed_controls,
-    wait, window,
+    wait, wait_for_field, window, window_of,
 };
 
 /// Strokes to the right on the pad for about half a second.
@@ -205,7 +208,7 @@ fn a_recording_that_is_dropped_is_imported() {
 #[test]
 fn the_row_above_the_pad_is_not_cut_off() {
     for size in [[1280.0, 720.0], [960.0, 600.0]] {
-        let mut harness = author_of(begin(shagreen_studio::project::new_project()), size);
+        let mut harness = author_of(begin(new_project()), size);
         for recorded in [false, true] {
             if recorded {
                 let table = b"t_s,x_mm,y_mm,force_n\n0,0,0,1\n1,20,0,1\n";
@@ -226,4 +229,22 @@ fn the_row_above_the_pad_is_not_cut_off() {
             }
         }
     }
+}
+
+/// A press without motion gets frames at once, so that the tip is drawn as soon as the output reports it.
+#[test]
+fn a_press_that_rests_asks_for_frames() {
+    // Without an output no signal keeps the window drawing.
+    let output = OutputChoice::Id("none".to_owned());
+    let mut harness = window_of(Begin { output, ..begin(new_project()) }, [1280.0, 720.0]);
+    wait_for_field(&mut harness);
+    let delay = |h: &Author| h.output().viewport_output.get(&ViewportId::ROOT).unwrap().repaint_delay;
+    let middle = harness.get_by_role_and_label(Role::Canvas, strings::PAD).rect().center();
+    harness.hover_at(middle);
+    wait(&mut harness, "the window rests", |h| delay(h) > Duration::ZERO);
+    harness.drag_at(middle);
+    harness.run_steps(6);
+    assert_eq!(delay(&harness), Duration::ZERO);
+    harness.drop_at(middle);
+    harness.run_steps(2);
 }

@@ -54,6 +54,14 @@ pub(crate) fn author_of(begin: Begin, size: [f32; 2]) -> Author {
     harness
 }
 
+/// The same at a scale of the screen, with an open output; `size` is in points.
+pub(crate) fn author_at(begin: Begin, size: [f32; 2], pixels_per_point: f32) -> Author {
+    let builder = Harness::builder().with_size(size).with_pixels_per_point(pixels_per_point);
+    let mut harness = opened(builder, begin);
+    wait(&mut harness, "the output opens", |h| window(h).session().status().is_some());
+    harness
+}
+
 /// Window after its first frame, with or without an open output; `size` is in points.
 pub(crate) fn window_of(begin: Begin, size: [f32; 2]) -> Author {
     opened(Harness::builder().with_size(size), begin)

@@ -150,6 +150,11 @@ pub enum Finding {
 }
 
 impl Finding {
+    /// Whether this is an ordinary step of the conversion, not an imperfection of the recording.
+    pub fn is_ordinary(&self) -> bool {
+        matches!(self, Self::AxesCombined { .. } | Self::SpeedFromPositions | Self::Constant { .. })
+    }
+
     /// Short name, stable for scripts.
     pub fn name(&self) -> &'static str {
         match self {

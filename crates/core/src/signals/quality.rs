@@ -22,7 +22,7 @@ mod tests;
 use crate::dsp::threshold::Threshold;
 use crate::units::Hertz;
 
-pub use crate::signals::quality::d_prime::{Correction, Counts, d_prime};
+pub use crate::signals::quality::d_prime::{Correction, Counts, d_prime, proportion_correct};
 pub use crate::signals::quality::features::Features;
 pub use crate::signals::quality::model::{
     Elimination, PAPER_FEATURES, PAPER_PAIRS, PAPER_RATE, PAPER_WEIGHTS, QualityModel, QualityModelError,

@@ -13,6 +13,7 @@
 //! [`prepare`] computes once what depends only on the surface, and [`press`] once what depends on the force.
 
 mod dynamics;
+pub mod landing;
 mod tip;
 
 use crate::dsp::dft321::dft321;
@@ -57,6 +58,8 @@ pub struct Tool {
     pub body_stiffness_n_per_m: f64,
     /// Mass of the pen.
     pub mass_kg: f64,
+    /// Effective mass of pen and fingers in a landing.
+    pub landing_mass_kg: f64,
     /// Stiffness of the hand's grip.
     pub hand_stiffness_n_per_m: f64,
     /// Damping of the hand's grip.
@@ -73,6 +76,7 @@ pub const PEN: Tool = Tool {
     tip_modulus_pa: 3.3e9,
     body_stiffness_n_per_m: 1e5,
     mass_kg: 0.040,
+    landing_mass_kg: 0.020,
     hand_stiffness_n_per_m: 400.0,
     hand_damping_n_s_per_m: 8.0,
     lateral_resonance_hz: 110.0,

@@ -1,14 +1,15 @@
 //! Textures of the starter library from physical materials: simulated strokes, fitted models, labels and a picture.
 //!
 //! Every material is stroked at [`STARTER_SPEEDS_MM_PER_S`] and [`STARTER_FORCES_N`]. Each stroke gives one AR model
-//! and one level. Positions in the space are physical labels, scaled to the axes by [`places`]. They are simulated, not
-//! human ratings, and any display of them must say so.
+//! and one level. The tap transient is that of a landing at [`REFERENCE_LANDING`]. Positions in the space are physical
+//! labels, scaled to the axes by [`places`]. They are simulated, not human ratings, and any display of them must say so.
 
 use crate::dsp::ar::{ArError, order_by_bic, yule_walker};
 use crate::dsp::lsf::lsf_from_ar;
 use crate::dsp::spectrum::rms;
 use crate::maths::rng::derive_seed;
 use crate::space::SpacePoint;
+use crate::surfaces::contact_model::landing::{REFERENCE_LANDING, landing};
 use crate::surfaces::contact_model::{
     PEN, STARTER_PATH_M, STROKE_RATE, StrokeError, Surface, drag, hardness, prepare, press, roughness,
 };
@@ -129,7 +130,11 @@ pub fn make(material: &Material, seed: u64) -> Result<StarterTexture, StarterErr
         }
     }
     let labels = labels(material, &surface, seed)?;
-    let model = fit(&strokes, material.friction_coefficient)?;
+    let model = fit(&strokes, material.friction_coefficient)?.with_tap(Some(landing(
+        material,
+        &PEN,
+        REFERENCE_LANDING,
+    )));
     Ok(StarterTexture { model, labels, picture: shade(&field, material, &FRAMING) })
 }
 

@@ -40,6 +40,11 @@ impl Ramp {
         }
     }
 
+    /// Value at the end of the ramp.
+    pub(super) fn target(&self) -> f32 {
+        self.target
+    }
+
     /// Value at the last frame.
     pub(super) fn value(&self) -> f32 {
         self.value

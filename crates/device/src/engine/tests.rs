@@ -16,7 +16,8 @@ use shagreen_synth::renderer::{Blend, Mix, Parent};
 use shagreen_synth::tap::Tap;
 
 use super::{
-    COMMANDS, ChannelMask, Engine, EngineConfig, Handle, LoadReason, MixError, RETURNED, SCOPE, SLOTS, new,
+    COMMANDS, ChannelMask, Engine, EngineConfig, Handle, LoadReason, MixError, RETURNED, SCOPE, SLOTS,
+    TAP_SHARE, new,
 };
 use crate::controls::{Controls, Drive, Input, Takeover};
 use crate::hand::{Hand, Path};
@@ -444,6 +445,18 @@ fn a_landing_sounds_from_the_first_sample_of_the_next_block() {
             assert!(peak(&play(&mut engine, 48, 48)) < 2.0);
         }
     }
+}
+
+#[test]
+fn a_tap_beyond_the_output_is_reduced_before_the_limiter() {
+    let (mut handle, mut engine, mut live) = tapping();
+    handle.set_tap(Tap { amplitude_mps2: 700.0, ..WOOD });
+    play(&mut engine, 480, 480);
+    live.send(landed(0.5), Instant::now()).unwrap();
+    let reduced = peak(&play(&mut engine, 4800, 480));
+    let linear = CONFIG.drive.linear_mps2() / CONFIG.drive.full_scale_mps2();
+    assert!((0.8 * TAP_SHARE * linear..TAP_SHARE * linear).contains(&reduced), "{reduced}");
+    assert_eq!(handle.status().limited_samples, 0);
 }
 
 #[test]

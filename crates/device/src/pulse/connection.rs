@@ -12,6 +12,8 @@ use pulseaudio::protocol::{
     read_descriptor, write_command_message,
 };
 
+use crate::error::{DeviceError, DeviceErrorKind};
+
 /// Reasons for a missing or failed reply.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum Failure {
@@ -24,6 +26,12 @@ pub(super) enum Failure {
     /// The server sent an error or an invalid message.
     #[error("{0}")]
     Protocol(#[from] ProtocolError),
+}
+
+/// Returns the error for a server that does not respond.
+pub(super) fn unavailable(failure: &Failure) -> DeviceError {
+    let message = format!("the sound server does not respond: {failure}; start it and try again");
+    DeviceError::new(DeviceErrorKind::Unavailable, message)
 }
 
 /// Time limit for a reply.
@@ -45,6 +53,16 @@ impl Message {
         Ok(T::read(&mut reader, version)?)
     }
 }
+
+/// A packet from the server.
+pub(super) struct Packet {
+    /// Channel of the stream whose samples it contains; `None` for a message.
+    pub(super) channel: Option<u32>,
+    pub(super) bytes: Vec<u8>,
+}
+
+/// Channel number of messages.
+const MESSAGES: u32 = u32::MAX;
 
 /// A connection to the server of this session.
 pub(super) struct Connection {
@@ -129,19 +147,38 @@ impl Connection {
     /// Same as [`Connection::next`], with a time limit for all of it.
     fn next_until(&mut self, until: Option<Instant>) -> Result<Message, Failure> {
         loop {
-            let mut from = Patient { socket: &mut self.socket, until };
-            let descriptor = read_descriptor(&mut from)?;
-            if descriptor.length > MAX_MESSAGE {
-                return Err(ProtocolError::Invalid("a message exceeds the length limit".into()).into());
-            }
-            let mut bytes = vec![0; descriptor.length as usize];
-            from.read_exact(&mut bytes)?;
-            let mut payload = Cursor::new(bytes);
-            // Commands unknown to this protocol version are skipped.
-            if let Ok((seq, command)) = Command::read_tag_prefixed(&mut payload, self.version) {
-                return Ok(Message { seq, command, payload });
+            let packet = self.packet_until(until)?;
+            if packet.channel.is_none()
+                && let Some(message) = self.message(packet.bytes)
+            {
+                return Ok(message);
             }
         }
+    }
+
+    /// Returns the next packet, whether message or samples.
+    pub(super) fn next_packet(&mut self) -> Result<Packet, Failure> {
+        self.packet_until(None)
+    }
+
+    fn packet_until(&mut self, until: Option<Instant>) -> Result<Packet, Failure> {
+        let mut from = Patient { socket: &mut self.socket, until };
+        let descriptor = read_descriptor(&mut from)?;
+        if descriptor.length > MAX_MESSAGE {
+            return Err(ProtocolError::Invalid("a message exceeds the length limit".into()).into());
+        }
+        let mut bytes = vec![0; descriptor.length as usize];
+        from.read_exact(&mut bytes)?;
+        let channel = (descriptor.channel != MESSAGES).then_some(descriptor.channel);
+        Ok(Packet { channel, bytes })
+    }
+
+    /// Decodes a message; `None` for a command that this protocol version does not know.
+    pub(super) fn message(&self, bytes: Vec<u8>) -> Option<Message> {
+        let mut payload = Cursor::new(bytes);
+        // Unknown commands are skipped.
+        let (seq, command) = Command::read_tag_prefixed(&mut payload, self.version).ok()?;
+        Some(Message { seq, command, payload })
     }
 
     /// Sends samples to stream `channel`.

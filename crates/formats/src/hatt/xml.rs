@@ -47,8 +47,25 @@ pub(super) fn parse(text: &str) -> Result<Document<'_>, HattError> {
             "it declares a document type, which could load other files; remove the <!DOCTYPE …>".into(),
         ),
         roxmltree::Error::NodesLimitReached => refused(format!("it has more than {MAX_NODES} elements")),
-        error => refused(error.to_string()),
+        _ if !text.trim_start().starts_with('<') => refused(no_xml(text)),
+        error => refused(worded(&error)),
     })
+}
+
+/// Says why a text without an element at its beginning is not XML.
+fn no_xml(text: &str) -> String {
+    let reason = if text.trim_start().is_empty() { "it is empty" } else { "it does not begin with <" };
+    reason.to_owned()
+}
+
+/// The parser's message, with its line and column at the end.
+fn worded(error: &roxmltree::Error) -> String {
+    let message = error.to_string();
+    let place = message.rsplit_once(" at ").and_then(|(words, at)| Some((words, at.split_once(':')?)));
+    match place {
+        Some((words, (line, column))) => format!("{words} (line {line}, column {column})"),
+        None => message,
+    }
 }
 
 /// Returns whether an element has this name, ignoring case and namespaces.

@@ -5,6 +5,7 @@ use shagreen_core::space::texture_path::TexturePathError;
 use shagreen_core::texture::TextureModelError;
 use shagreen_core::texture::tap::TapError;
 
+use crate::foreign_file::Found;
 use crate::library::{FORMAT, VERSION_MAJOR, VERSION_MINOR};
 use crate::own_json::HeaderFault;
 use crate::text_limits::TooLong;
@@ -21,11 +22,11 @@ pub enum LibraryError {
         /// Identifier of the texture that contains the damage, if known.
         texture: Option<String>,
     },
-    /// The file is JSON of another format.
-    #[error("this is not a texture library: `format` is {found}, not \"{FORMAT}\"; choose another file")]
+    /// The file is of another format.
+    #[error("{}", .found.instead_of("a texture library", FORMAT))]
     Format {
-        /// Value of the `format` field.
-        found: String,
+        /// What the file is.
+        found: Found,
     },
     /// `version` is not of the form `major.minor`.
     #[error(

@@ -17,6 +17,7 @@ use crate::library::{
 };
 use crate::library::{attributes, path, relief, tap};
 use crate::own_json::{Header, HeaderFault, minor_version};
+use crate::parser_words::plain;
 use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
 use crate::text_limits::{self, MAX_ID, MAX_NAME, MAX_NOTES, TooLong};
 
@@ -33,7 +34,8 @@ pub fn read_library(bytes: &[u8]) -> Result<Imported<Library>, LibraryError> {
         HeaderFault::Damaged(reason) => damaged(reason, bytes),
         fault => fault.into(),
     })?;
-    let wire: LibraryV1 = serde_json::from_slice(bytes).map_err(|error| damaged(error.to_string(), bytes))?;
+    let wire: LibraryV1 =
+        serde_json::from_slice(bytes).map_err(|error| damaged(plain(&error.to_string()), bytes))?;
     checked(wire, minor)
 }
 

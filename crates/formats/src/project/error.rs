@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use shagreen_core::space::SpacePointError;
 
+use crate::foreign_file::Found;
 use crate::library::LibraryError;
 use crate::project::{FORMAT, VERSION_MAJOR, VERSION_MINOR};
 use crate::text_limits::TooLong;
@@ -19,11 +20,11 @@ pub enum ProjectError {
         /// The parser's message, with line and column.
         reason: String,
     },
-    /// The file is JSON of another format.
-    #[error("this is not a project: `format` is {found}, not \"{FORMAT}\"; choose another file")]
+    /// The file is of another format.
+    #[error("{}", .found.instead_of("a project", FORMAT))]
     Format {
-        /// Value of the `format` field.
-        found: String,
+        /// What the file is.
+        found: Found,
     },
     /// `version` is not of the form `major.minor`.
     #[error(

@@ -18,6 +18,7 @@ use crate::library::read::{library_inside, picture, place, texture};
 use crate::library::v1::PictureV1;
 use crate::library::{Attributes, LibraryError, TextureEntry, Unknown, attributes, read_library};
 use crate::own_json::{HeaderFault, minor_version};
+use crate::parser_words::plain;
 use crate::path_json;
 use crate::picture::Picture;
 use crate::placed_space::{PlacedSpace, PlacedTexture};
@@ -40,6 +41,22 @@ pub fn read_project(
     folder: &Path,
     read: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<Imported<Project>, ProjectError> {
+    read_with(bytes, |wire, warnings| library(wire, folder, read, warnings))
+}
+
+/// Reads a project with this library in place of the one that it names.
+///
+/// # Errors
+/// As [`read_project`], except for errors of the library.
+pub fn read_project_on(bytes: &[u8], library: ProjectLibrary) -> Result<Imported<Project>, ProjectError> {
+    read_with(bytes, |_, _| Ok(library))
+}
+
+/// Reads a project; `library_of` returns its library and may add warnings.
+fn read_with(
+    bytes: &[u8],
+    library_of: impl FnOnce(ProjectLibraryV1, &mut Vec<String>) -> Result<ProjectLibrary, ProjectError>,
+) -> Result<Imported<Project>, ProjectError> {
     let minor = minor_version(bytes, FORMAT, VERSION_MAJOR)?;
     let mut warnings = Vec::new();
     if minor > VERSION_MINOR {
@@ -47,10 +64,10 @@ pub fn read_project(
             "the project has version {VERSION_MAJOR}.{minor}, newer than {VERSION_MAJOR}.{VERSION_MINOR}; fields that this program does not know are kept but have no effect"
         ));
     }
-    let damaged = |error: serde_json::Error| ProjectError::Damaged { reason: error.to_string() };
+    let damaged = |error: serde_json::Error| ProjectError::Damaged { reason: plain(&error.to_string()) };
     let wire: ProjectV1 = serde_json::from_slice(bytes).map_err(damaged)?;
     check_units(&wire.units)?;
-    let library = library(wire.library, folder, read, &mut warnings)?;
+    let library = library_of(wire.library, &mut warnings)?;
     let inside = |source: LibraryError| ProjectError::Library { path: None, source };
     let joined: Vec<Arc<TextureEntry>> = wire
         .joined
@@ -146,7 +163,8 @@ fn library(
         ProjectLibraryV1 { file: Some(file), sha256: told, .. } => {
             let stated = path_json::from_json(&file)
                 .ok_or_else(|| ProjectError::Damaged { reason: "`library.file` is not a path".to_owned() })?;
-            if cfg!(windows) && is_on_network(&stated) && !is_on_network(folder) {
+            let host = host_of(&stated);
+            if host.is_some() && host != host_of(folder) {
                 return Err(ProjectError::Network { path: stated });
             }
             let path = folder.join(stated);
@@ -166,28 +184,44 @@ fn library(
 /// Maximum number of points of a drawn path.
 const MAX_PATH_POINTS: usize = 10_000;
 
-/// Whether a path of Windows names another computer. Opening such a path would send the user's name and password hash
-/// there.
-fn is_on_network(path: &Path) -> bool {
-    let begin = path.as_os_str().as_encoded_bytes();
-    // `\\\\?\\C:\\…` and `\\\\.\\…` are on this computer.
-    let is_local = matches!(begin, [_, _, b'?' | b'.', _, _, b':', ..] | [_, _, b'.', ..]);
-    matches!(begin, [b'/' | b'\\', b'/' | b'\\', ..]) && !is_local
+/// Name of the other computer that a path of Windows names, in lower case; `None` for a path on this computer. Opening
+/// such a path would send the user's name and password hash there. It is recognized on every system, so that a project
+/// is refused everywhere.
+fn host_of(path: &Path) -> Option<String> {
+    let bytes = path.as_os_str().as_encoded_bytes();
+    let is_slash = |byte: &u8| matches!(byte, b'/' | b'\\');
+    let [first, second, rest @ ..] = bytes else { return None };
+    // `\\\\?\\C:\\…` and `\\\\.\\C:\\…` are on this computer.
+    let is_drive = matches!(rest, [b'?' | b'.', slash, _, b':', ..] if is_slash(slash));
+    if !is_slash(first) || !is_slash(second) || is_drive {
+        return None;
+    }
+    let named = rest.split(is_slash).filter(|part| !part.is_empty());
+    let mut parts = named.map(|part| String::from_utf8_lossy(part).to_lowercase());
+    let host = parts.next()?;
+    // `\\\\?\\UNC\\server\\share` is `\\\\server\\share`.
+    if host != "?" && host != "." {
+        return Some(host);
+    }
+    parts.find(|part| part != "unc")
 }
 
 #[cfg(test)]
 #[test]
 fn paths_of_other_computers_are_known() {
     for (path, expected) in [
-        (r"\\server\share\woods.json", true),
-        ("//server/share/woods.json", true),
-        (r"\\?\UNC\server\share", true),
-        (r"\\?\C:\woods.json", false),
-        (r"C:\woods.json", false),
-        ("/home/woods.json", false),
-        ("woods.json", false),
+        (r"\\Server\share\woods.json", Some("server")),
+        ("//server/share/woods.json", Some("server")),
+        (r"\\?\UNC\server\share", Some("server")),
+        (r"\\.\UNC\server\share", Some("server")),
+        (r"/\server\share", Some("server")),
+        (r"\\?\C:\woods.json", None),
+        (r"\\.\C:\woods.json", None),
+        (r"C:\woods.json", None),
+        ("/home/woods.json", None),
+        ("woods.json", None),
     ] {
-        assert_eq!(is_on_network(Path::new(path)), expected, "{path}");
+        assert_eq!(host_of(Path::new(path)).as_deref(), expected, "{path}");
     }
 }
 
@@ -237,7 +271,7 @@ fn check_keys(authored: &[Arc<AuthoredTexture>]) -> Result<(), ProjectError> {
     Ok(())
 }
 
-fn authored_texture(wire: AuthoredV1) -> Result<AuthoredTexture, ProjectError> {
+pub(super) fn authored_texture(wire: AuthoredV1) -> Result<AuthoredTexture, ProjectError> {
     let name = wire.name;
     let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
         .map_err(|source| ProjectError::Place { name: name.clone(), source })?;

@@ -12,7 +12,7 @@ use shagreen_core::texture::blend::Mode;
 
 use super::{
     AuthoredTexture, BlendChoice, LibraryFile, Project, ProjectError, ProjectLibrary, read_project,
-    sha256_hex, write_project,
+    read_project_on, sha256_hex, write_project,
 };
 use crate::built_in::BuiltIn;
 use crate::library::{Attribute, Attributes, Place, read_library, write_library};
@@ -163,6 +163,28 @@ fn a_library_beside_the_project_is_found_where_both_went() {
     assert!(none.contains("not a texture library") && none.contains("woods.json"), "{none}");
 }
 
+/// On every system, a project on this computer cannot name a library on another one.
+#[test]
+fn a_library_on_another_computer_is_not_asked_for() {
+    let project = |library: &str| {
+        let wire = json!({"format": "shagreen-project", "version": "1.0", "units": {"length": "mm", "time": "s"},
+            "library": {"file": library}, "authored": []});
+        serde_json::to_vec(&wire).unwrap()
+    };
+    let never = |path: &Path| -> io::Result<Vec<u8>> { panic!("{} was read", path.display()) };
+    for library in [r"\\server\share\woods.json", "//server/share/woods.json", r"\\?\UNC\server\woods.json"] {
+        for folder in ["/somewhere", r"\\other\share"] {
+            let error = read_project(&project(library), Path::new(folder), &never).unwrap_err();
+            assert!(matches!(error, ProjectError::Network { .. }), "{library} in {folder}: {error}");
+        }
+        // A project on the same computer was opened there by the user.
+        let beside = read_project(&project(library), Path::new(r"\\server\share"), &nothing).unwrap_err();
+        assert!(matches!(beside, ProjectError::LibraryFile { .. }), "{beside}");
+        let other = ProjectLibrary::BuiltIn(BuiltIn::Starter);
+        assert_eq!(read_project_on(&project(library), other.clone()).unwrap().value.library, other);
+    }
+}
+
 fn changed(change: impl FnOnce(&mut Value)) -> Result<(Project, Vec<String>), ProjectError> {
     let mut wire: Value = serde_json::from_slice(&write_project(&full(), Path::new("/"), BY)).unwrap();
     change(&mut wire);
@@ -180,7 +202,7 @@ fn each_fault_is_named() {
         ("version 2.0", |wire| wire["version"] = json!("2.0")),
         ("version \"one\"", |wire| wire["version"] = json!("one")),
         ("length in inch", |wire| wire["units"]["length"] = json!("inch")),
-        ("missing field `authored`", |wire| drop(wire.as_object_mut().unwrap().remove("authored"))),
+        ("the field `authored` is missing", |wire| drop(wire.as_object_mut().unwrap().remove("authored"))),
         ("library \"other\"", |wire| wire["library"] = json!({"built_in": "other"})),
         ("exactly one of the fields \"built_in\"", |wire| wire["library"] = json!({})),
         ("cannot be read", |wire| wire["library"] = json!({"file": "none.json"})),

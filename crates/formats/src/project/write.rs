@@ -104,7 +104,7 @@ fn placed_space(space: &PlacedSpace) -> PlacedSpaceV1 {
     }
 }
 
-fn authored(texture: &AuthoredTexture) -> AuthoredV1 {
+pub(super) fn authored(texture: &AuthoredTexture) -> AuthoredV1 {
     AuthoredV1 {
         key: texture.key,
         name: texture.name.clone(),

@@ -11,6 +11,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use shagreen_core::units::{MetersPerSecond, Newtons};
 
+use crate::parser_words::plain;
 use crate::recording::RecordingFileError;
 use crate::recording::column_map::{Channel, ColumnMap};
 use crate::recording::map_builder::MapBuilder;
@@ -66,7 +67,7 @@ pub(super) fn read_sidecar(
     inquiry: &mut MapBuilder,
 ) -> Result<Option<TraceV1>, RecordingFileError> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let wire: Wire = serde_json::from_slice(bytes).map_err(|failure| error(failure.to_string()))?;
+    let wire: Wire = serde_json::from_slice(bytes).map_err(|failure| error(plain(&failure.to_string())))?;
     if wire.format.as_deref() == Some(FORMAT) {
         let major = |version: &str| version.split('.').next().unwrap_or("").to_owned();
         let version = wire.version.unwrap_or_default();

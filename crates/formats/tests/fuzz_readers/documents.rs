@@ -6,7 +6,8 @@ use std::path::Path;
 use shagreen_formats::actuator_toml::{built_in_actuators, read_actuator, write_actuator};
 use shagreen_formats::gallery::{GALLERY, GalleryProject};
 use shagreen_formats::hid_text::read_hid_text;
-use shagreen_formats::project::{Project, read_project, write_project};
+use shagreen_formats::project::clipboard::{CopiedTexture, read_copied_texture, write_copied_texture};
+use shagreen_formats::project::{AuthoredTexture, Project, read_project, write_project};
 use shagreen_formats::settings::{KeptPrompt, Settings, read_settings, write_settings};
 
 /// Reads a project whose library file does not exist.
@@ -38,6 +39,28 @@ pub(crate) fn read_a_project(bytes: &[u8]) -> Result<(), String> {
     // Numbers are rounded when they are written first.
     let twice = write_project(&again, Path::new("/folder"), "fuzz");
     if twice == written { Ok(()) } else { Err("writing the project twice gives different bytes".into()) }
+}
+
+/// The authored textures of a gallery project, as on the clipboard.
+pub(crate) fn copied_texture_seeds() -> Vec<Vec<u8>> {
+    let project = GALLERY[0].read().unwrap();
+    let copied = |texture: &std::sync::Arc<AuthoredTexture>| CopiedTexture {
+        texture: AuthoredTexture::clone(texture),
+        library: "Starter library".to_owned(),
+        axes: [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned)),
+        pinned: [("cork".to_owned(), "Cork".to_owned())].into(),
+    };
+    project.authored.iter().map(|texture| write_copied_texture(&copied(texture)).into_bytes()).collect()
+}
+
+pub(crate) fn read_a_copied_texture(bytes: &[u8]) -> Result<(), String> {
+    let Ok(text) = std::str::from_utf8(bytes) else { return Ok(()) };
+    let Ok(copied) = read_copied_texture(text) else { return Ok(()) };
+    let written = write_copied_texture(&copied);
+    let again = read_copied_texture(&written).map_err(|error| error.to_string())?;
+    // Numbers are rounded when they are written first.
+    let twice = write_copied_texture(&again);
+    if twice == written { Ok(()) } else { Err("writing the texture twice gives different text".into()) }
 }
 
 pub(crate) fn settings_seeds() -> Vec<Vec<u8>> {

@@ -10,8 +10,8 @@ use shagreen_formats::svc::{PenFlavor, PenMapping, pen_samples, read_svc};
 use shagreen_formats::wav::SidecarV1;
 
 use crate::documents::{
-    actuator_seeds, hid_seeds, project_seeds, read_a_hid_text, read_a_project, read_an_actuator,
-    read_some_settings, settings_seeds,
+    actuator_seeds, copied_texture_seeds, hid_seeds, project_seeds, read_a_copied_texture, read_a_hid_text,
+    read_a_project, read_an_actuator, read_some_settings, settings_seeds,
 };
 use crate::judgments::{
     places_seeds, ratings_seeds, read_a_sorting, read_some_places, read_some_ratings, sorting_seeds,
@@ -131,6 +131,13 @@ pub(crate) const READERS: &[Reader] = &[
         read: read_a_stream,
     },
     Reader { name: "project", seeds: project_seeds, repair: None, bombs: json_bombs, read: read_a_project },
+    Reader {
+        name: "copied_texture",
+        seeds: copied_texture_seeds,
+        repair: None,
+        bombs: json_bombs,
+        read: read_a_copied_texture,
+    },
     Reader {
         name: "settings",
         seeds: settings_seeds,

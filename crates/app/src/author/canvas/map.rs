@@ -1,6 +1,12 @@
 //! Map behind the canvas: choice of its quantity, image and color scale.
 
-use egui::{Color32, ComboBox, FontId, Mesh, Rect, Role, Sense, TextureId, Ui, WidgetInfo, pos2, vec2};
+use std::sync::Arc;
+
+use egui::epaint::Vertex;
+use egui::{
+    Color32, ComboBox, FontId, Mesh, Pos2, Rect, Role, Sense, TextureId, Ui, Vec2, WidgetInfo, pos2, vec2,
+};
+use shagreen_core::space::SpacePoint;
 use shagreen_core::space::heat_map::Quantity;
 
 use crate::command::Command;
@@ -11,12 +17,12 @@ use crate::strings::map as strings;
 /// Opacity of the map.
 const OPACITY: f32 = 0.62;
 /// Size of the color scale, in points.
-const SCALE: egui::Vec2 = vec2(80.0, 8.0);
+const SCALE: Vec2 = vec2(80.0, 8.0);
 /// Number of color steps of the scale.
 const STEPS: usize = 32;
 
 /// Map behind the canvas, shown or still being computed.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct ShownMap {
     /// Quantity that the map shows.
     pub quantity: Quantity,
@@ -24,6 +30,8 @@ pub struct ShownMap {
     pub picture: Option<TextureId>,
     /// Lowest and highest value, in the unit of the quantity.
     pub range: Option<(f64, f64)>,
+    /// Outline of the region with values; `None` if the whole space has values.
+    pub outline: Option<Arc<[SpacePoint]>>,
 }
 
 /// Draws the choice of the quantity; returns the requested command.
@@ -43,13 +51,57 @@ pub(super) fn map_choice_ui(ui: &mut Ui, map: Option<&ShownMap>) -> Option<Comma
     chosen
 }
 
-/// Draws the map over the square of the whole space.
+/// Draws the map within its outline, or over the square of the whole space.
 pub(super) fn map_ui(ui: &Ui, axes: Axes, map: &ShownMap) {
     let Some(picture) = map.picture else { return };
+    let color = Color32::WHITE.gamma_multiply(OPACITY);
     let mut mesh = Mesh::with_texture(picture);
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    mesh.add_rect_with_uv(axes.whole(), whole, Color32::WHITE.gamma_multiply(OPACITY));
+    if let Some(outline) = &map.outline {
+        let mut corners: Vec<Pos2> = outline.iter().map(|point| axes.ui_from_space(*point)).collect();
+        // An edge without length has no direction.
+        corners.dedup_by(|a, b| a.distance(*b) < 0.1);
+        let pixel = 1.0 / ui.ctx().pixels_per_point();
+        add_polygon(&mut mesh, &corners, axes.whole(), pixel, color);
+    } else {
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        mesh.add_rect_with_uv(axes.whole(), whole, color);
+    }
     ui.painter_at(axes.rect).add(mesh);
+}
+
+/// Adds a polygon that contains the segments from its center to its corners. `picture` is the rectangle of the whole
+/// texture. The edge fades over `soft` points. Fewer than three corners add nothing.
+fn add_polygon(mesh: &mut Mesh, corners: &[Pos2], picture: Rect, soft: f32, color: Color32) {
+    /// Maximum length of the soft edge at a sharp corner, relative to its width.
+    const MAX_MITER: f32 = 3.0;
+    let n = corners.len();
+    if n < 3 {
+        return;
+    }
+    let corner = |i: usize| corners[i % n];
+    let turn: f32 = (0..n).map(|i| corner(i).x * corner(i + 1).y - corner(i).y * corner(i + 1).x).sum();
+    // Points outward from the edge after a corner.
+    let normal = |i: usize| turn.signum() * (corner(i + 1) - corner(i)).normalized().rot90();
+    let mut add = |pos: Pos2, color: Color32| {
+        let uv = ((pos - picture.min) / picture.size()).to_pos2();
+        mesh.vertices.push(Vertex { pos, uv, color });
+    };
+    let sum = corners.iter().fold(Vec2::ZERO, |sum, corner| sum + corner.to_vec2());
+    add((sum / n as f32).to_pos2(), color);
+    for (i, corner) in corners.iter().enumerate() {
+        let (before, after) = (normal(i + n - 1), normal(i));
+        let miter = (before + after).normalized();
+        let outward = 0.5 * soft * (1.0 / miter.dot(after).max(1.0 / MAX_MITER)) * miter;
+        add(*corner - outward, color);
+        add(*corner + outward, Color32::TRANSPARENT);
+    }
+    for i in 0..n {
+        let [inner, outer] = [1, 2].map(|k| (2 * i + k) as u32);
+        let [next_inner, next_outer] = [1, 2].map(|k| (2 * ((i + 1) % n) + k) as u32);
+        mesh.add_triangle(0, inner, next_inner);
+        mesh.add_triangle(inner, outer, next_outer);
+        mesh.add_triangle(inner, next_outer, next_inner);
+    }
 }
 
 /// Draws the color scale between the lowest and the highest value.
@@ -77,4 +129,48 @@ pub(super) fn scale_ui(ui: &mut Ui, map: &ShownMap, t: &Tokens) {
     let corner = pos2(left + SCALE.x + 5.0, line - 0.5 * high_text.size().y);
     ui.painter().galley(corner, high_text, t.text_weak);
     response.on_hover_text(strings::help(Some(map.quantity)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::add_polygon;
+    use egui::{Color32, Mesh, Pos2, Rect, pos2};
+
+    /// Area of all triangles whose corners have a color, and of all triangles.
+    fn areas(mesh: &Mesh) -> [f32; 2] {
+        let mut areas = [0.0; 2];
+        for corners in mesh.indices.as_chunks::<3>().0 {
+            let [a, b, c] = corners.map(|i| mesh.vertices[i as usize]);
+            let (u, v) = (b.pos - a.pos, c.pos - a.pos);
+            let area = 0.5 * (u.x * v.y - u.y * v.x).abs();
+            areas[1] += area;
+            if [a, b, c].iter().all(|vertex| vertex.color != Color32::TRANSPARENT) {
+                areas[0] += area;
+            }
+        }
+        areas
+    }
+
+    /// The polygon is filled up to half a pixel inside its edge and fades until half a pixel outside, whichever way its
+    /// corners are listed.
+    #[test]
+    fn the_edge_of_a_map_is_one_pixel_wide() {
+        let square = [pos2(10.0, 10.0), pos2(110.0, 10.0), pos2(110.0, 60.0), pos2(10.0, 60.0)];
+        let backward = [square[3], square[2], square[1], square[0]];
+        let picture = Rect::from_min_max(pos2(0.0, 0.0), pos2(200.0, 100.0));
+        for corners in [square, backward] {
+            let mut mesh = Mesh::default();
+            add_polygon(&mut mesh, &corners, picture, 1.0, Color32::WHITE);
+            let [filled, all] = areas(&mesh);
+            assert!((filled - 99.0 * 49.0).abs() < 1.0 && (all - 101.0 * 51.0).abs() < 1.0, "{filled} {all}");
+            for vertex in &mesh.vertices {
+                let expected = pos2(vertex.pos.x / 200.0, vertex.pos.y / 100.0);
+                assert!(vertex.uv.distance(expected) < 1e-6);
+            }
+        }
+        let mut mesh = Mesh::default();
+        let line: [Pos2; 2] = [square[0], square[1]];
+        add_polygon(&mut mesh, &line, picture, 1.0, Color32::WHITE);
+        assert!(mesh.is_empty());
+    }
 }

@@ -1,8 +1,8 @@
 //! Tool that draws a path through the space, with the path, its points and its controls.
 
 use egui::{
-    Align2, Button, ComboBox, CursorIcon, DragValue, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape,
-    Stroke, Ui, WidgetInfo, vec2,
+    Align2, Button, ComboBox, CursorIcon, DragValue, FontId, Key, Popup, Pos2, Rect, Response, Role, Sense,
+    Shape, Stroke, Ui, WidgetInfo, vec2,
 };
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::texture_path::{Along, AtEnd, MAX_KEYS};
@@ -54,7 +54,9 @@ impl PathTool {
             let begin = ui.input(|i| i.pointer.press_origin());
             self.line = begin.map(|pos| axes.space_from_ui(pos)).into_iter().collect();
         }
+        // A click beside an open menu only closes it.
         if background.clicked()
+            && !Popup::is_any_open(ui.ctx())
             && let Some(pos) = background.interact_pointer_pos()
         {
             return added(panel, axes.space_from_ui(pos));

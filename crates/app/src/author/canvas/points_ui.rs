@@ -1,17 +1,18 @@
 //! The authored points on the canvas.
 
-use egui::{CursorIcon, FontId, Key, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use egui::{CursorIcon, FontId, Key, Popup, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::Authored;
 use shagreen_formats::project::AuthoredTexture;
 
 use super::path_tool::PathTool;
 use super::{BIG_STEP, POINT_SIZE, SITE_RADIUS, move_to, point_id, site_radius};
-use crate::author::authored_panel::authored_menu;
+use crate::author::authored_menu::authored_menu;
 use crate::command::Command;
 use crate::look::axes::Axes;
 use crate::look::drag::dragged_to;
 use crate::look::theme::Tokens;
+use crate::look::tooltips::{Hint, is_learned, learn, may_appear};
 use crate::panel::Panel;
 use crate::state::edit::Edit;
 use crate::strings::{self, authored};
@@ -91,6 +92,7 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tok
         response.request_focus();
     }
     if let Some(pointer) = dragged_to(ui, &response) {
+        learn(ui.ctx(), Hint::DragPoint);
         commands.push(move_to(axes.space_from_ui(pointer)));
     }
     commands.extend(authored_menu(&response, panel, texture));
@@ -118,7 +120,14 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tok
     if response.has_focus() {
         ui.painter().circle_stroke(pos, grown + 4.0, Stroke::new(1.5, t.accent));
     }
-    response.on_hover_text(format!("{} {}\n{}", panel.project.texture().name, point, strings::POINT_HELP));
+    // The point follows the pointer, so that its tooltip would stay open while it is dragged.
+    if may_appear(ui.ctx()) {
+        let mut help = format!("{} {point}", texture.name);
+        if !is_learned(ui.ctx(), Hint::DragPoint) {
+            help = format!("{help}\n{}", strings::POINT_HELP);
+        }
+        response.on_hover_text(help);
+    }
     commands
 }
 
@@ -170,11 +179,15 @@ fn nudged(ui: &Ui, id: egui::Id, from: SpacePoint) -> Option<SpacePoint> {
     if focused.is_some_and(|f| f != id) {
         return None;
     }
-    // With the focus on the point, arrow keys move the point and not the focus.
+    // With the focus on the point, arrow keys move the point and not the focus. In an open menu they move the focus.
+    let has_open_menu = Popup::is_any_open(ui.ctx());
     if focused == Some(id) {
-        let filter =
-            egui::EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+        let (horizontal_arrows, vertical_arrows) = (!has_open_menu, !has_open_menu);
+        let filter = egui::EventFilter { horizontal_arrows, vertical_arrows, ..Default::default() };
         ui.memory_mut(|m| m.set_focus_lock_filter(id, filter));
+    }
+    if has_open_menu {
+        return None;
     }
     let (dx, dy) = ui.input(|i| {
         let step = if i.modifiers.shift { BIG_STEP } else { STEP };

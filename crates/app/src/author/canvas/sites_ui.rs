@@ -1,12 +1,14 @@
 //! The textures on the canvas.
 
+use egui::epaint::RectShape;
 use egui::{Color32, Popup, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 use shagreen_core::space::SpacePoint;
-use shagreen_formats::library::TextureEntry;
 
 use super::path_tool::{PathTool, added};
 use super::site_labels::{Around, site_labels};
 use super::{POINT_SIZE, SITE_RADIUS, site_radius};
+use crate::author::context_menu::context_menu;
+use crate::author::exact::taken;
 use crate::author::locks::lock_mark;
 use crate::author::texture_menu::texture_menu;
 use crate::author::texture_picture::place_in_words;
@@ -14,7 +16,6 @@ use crate::command::Command;
 use crate::look::axes::Axes;
 use crate::look::theme::Tokens;
 use crate::panel::Panel;
-use crate::state::edit::Edit;
 use crate::strings::{self};
 
 /// Maximum number of textures shown as pictures; if there are more, each texture is a dot.
@@ -48,8 +49,8 @@ pub(super) fn sites_ui(
         let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::go_to(&entry.name)));
         if response.clicked() {
-            let added = if tool.is_on { added(panel, *at) } else { Some(take(entry, *at)) };
-            commands.extend(added);
+            let chosen = || taken(panel, *texture).map(Command::Edit);
+            commands.extend(if tool.is_on { added(panel, *at) } else { chosen() });
         }
         site(ui, panel, *texture, pos, radius, &response, t);
         if response.hovered() {
@@ -60,7 +61,7 @@ pub(super) fn sites_ui(
         }
         // With a thousand textures, tooltips and menus are built only where they can be needed.
         if response.hovered() || response.has_focus() || has_open_menu {
-            response.context_menu(|ui| commands.extend(texture_menu(ui, panel, *texture)));
+            context_menu(&response, |ui| commands.extend(texture_menu(ui, panel, *texture)));
             response.on_hover_text(site_help(panel, *texture, *at));
         }
     }
@@ -74,11 +75,6 @@ pub(super) fn sites_ui(
     (commands, under_pointer)
 }
 
-/// Command that chooses a texture of the library: exactly this one, not the smooth field at its position.
-fn take(entry: &TextureEntry, at: SpacePoint) -> Command {
-    Command::Edit(Edit::TakeTexture { id: entry.id.clone(), name: entry.name.clone(), at })
-}
-
 /// Tooltip of a texture: its name, position and source, and how the field treats it there.
 fn site_help(panel: &Panel<'_>, texture: usize, at: SpacePoint) -> String {
     let name = &panel.session.textures()[texture].name;
@@ -90,21 +86,26 @@ fn site_help(panel: &Panel<'_>, texture: usize, at: SpacePoint) -> String {
     format!("{help}\n{}", if is_locked { strings::LOCKED } else { strings::SMOOTHED })
 }
 
+/// Picture of a texture as a disc around `pos`, or `None` while there is none.
+pub(super) fn picture_disc(panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32) -> Option<RectShape> {
+    let picture = panel.pictures.thumbnail(texture)?;
+    let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
+    // The middle 40 % of the picture in each direction: at this size its grain remains visible.
+    let uv = Rect::from_min_max(pos2(0.3, 0.3), pos2(0.7, 0.7));
+    Some(RectShape::filled(area, radius, Color32::WHITE).with_texture(picture.id(), uv))
+}
+
 fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, response: &Response, t: &Tokens) {
     let painter = ui.painter();
     let rank = panel.session.parent_rank(texture);
     let has_picture = radius >= SITE_RADIUS;
-    match panel.pictures.thumbnail(texture) {
-        Some(picture) if has_picture => {
-            let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
-            // The middle 40 % of the picture in each direction: at this size its grain remains visible.
-            let uv = Rect::from_min_max(pos2(0.3, 0.3), pos2(0.7, 0.7));
-            let mesh =
-                egui::epaint::RectShape::filled(area, radius, Color32::WHITE).with_texture(picture.id(), uv);
-            painter.add(mesh);
+    let disc = if has_picture { picture_disc(panel, texture, pos, radius) } else { None };
+    match disc {
+        Some(disc) => {
+            painter.add(disc);
         }
         // A dot is one textured disc. Rings around a thousand dots would make up most of all drawn triangles.
-        _ => {
+        None => {
             painter.circle_filled(pos, radius, t.text_weak);
         }
     }

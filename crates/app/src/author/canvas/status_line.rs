@@ -7,7 +7,7 @@ use shagreen_core::space::authoring::Authored;
 use shagreen_core::texture::blend::Mode;
 
 use crate::look::axes::Axes;
-use crate::look::theme::Tokens;
+use crate::look::theme::{RADIUS, Tokens};
 use crate::panel::Panel;
 use crate::strings;
 
@@ -27,7 +27,11 @@ pub(super) fn foot_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, asks_for_path: boo
     job.halign = egui::Align::Center;
     let galley = ui.painter().layout_job(job);
     let top = axes.rect.bottom() + DEPTH - galley.size().y;
-    ui.painter().galley(pos2(axes.rect.center().x, top), Arc::clone(&galley), color);
+    let place = pos2(axes.rect.center().x, top);
+    // In a small window, names of textures lie there.
+    let area = galley.rect.translate(place.to_vec2()).expand(3.0);
+    ui.painter().rect_filled(area, f32::from(RADIUS), t.background);
+    ui.painter().galley(place, Arc::clone(&galley), color);
 }
 
 fn foot(panel: &Panel<'_>, t: &Tokens) -> Option<(String, Color32)> {

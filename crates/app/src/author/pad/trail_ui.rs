@@ -5,6 +5,7 @@ use shagreen_device::touch::Touch;
 use shagreen_device::track::PenSample;
 
 use super::{PadState, in_ui};
+use crate::look::motion::is_reduced;
 use crate::look::theme::tokens;
 use crate::session::Session;
 use crate::state::recorder::LONGEST_SECS;
@@ -38,8 +39,11 @@ impl LiveTrail {
         self.next = (self.next + 1) % self.places.len();
     }
 
-    /// Draws the trail.
+    /// Draws the trail, unless motion is reduced.
     pub(super) fn show(&self, ui: &Ui, area: Rect, now_secs: f64) {
+        if is_reduced(ui.ctx()) {
+            return;
+        }
         let t = tokens(ui.ctx());
         let painter = ui.painter().with_clip_rect(area);
         let n = self.places.len();

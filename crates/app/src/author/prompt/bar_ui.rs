@@ -1,13 +1,12 @@
 //! Row with the prompt box.
 
-use egui::{
-    Align, Button, ComboBox, Key, Layout, ProgressBar, Role, Spinner, TextEdit, Ui, WidgetInfo, vec2,
-};
+use egui::{Align, Button, ComboBox, Key, Layout, ProgressBar, Role, TextEdit, Ui, WidgetInfo, vec2};
 use shagreen_formats::settings::KeptPrompt;
 
 use super::Prompts;
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
+use crate::look::motion::busy_ui;
 use crate::strings::prompt as words;
 
 /// Height of the row, in points.
@@ -27,7 +26,7 @@ pub(crate) fn bar_ui(ui: &mut Ui, prompts: &mut Prompts, earlier: &[KeptPrompt])
             }
             match prompts.progress() {
                 Some(share) => drop(ui.add(ProgressBar::new(share).desired_width(90.0).show_percentage())),
-                None => drop(ui.add(Spinner::new().size(16.0))),
+                None => busy_ui(ui),
             }
             if prompts.n_waiting() > 0 {
                 ui.label(words::waiting(prompts.n_waiting()));
@@ -36,7 +35,9 @@ pub(crate) fn bar_ui(ui: &mut Ui, prompts: &mut Prompts, earlier: &[KeptPrompt])
             asked = Some(make(prompts));
         }
         generator_ui(ui, prompts);
+        // An id of its own: the widgets before it change while a texture is made, and its focus must not.
         let field = TextEdit::singleline(&mut prompts.text)
+            .id_salt("prompt")
             .hint_text(words::HINT)
             .char_limit(LONGEST)
             .desired_width(f32::INFINITY);
@@ -44,6 +45,8 @@ pub(crate) fn bar_ui(ui: &mut Ui, prompts: &mut Prompts, earlier: &[KeptPrompt])
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, words::FIELD));
         if field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) {
             asked = Some(make(prompts));
+            // The next words are typed while the texture is made. Without the focus, their letters would be shortcuts.
+            field.request_focus();
         }
     });
     asked.map(Command::Prompt)

@@ -4,14 +4,14 @@ use egui::{
     Color32, FontId, Pos2, Rangef, Rect, Response, Role, Sense, Stroke, TextStyle, Ui, WidgetInfo, pos2, vec2,
 };
 use egui_plot::{
-    AxisHints, Corner, GridInput, GridMark, Legend, Line, LineStyle, Plot, PlotPoint, PlotPoints,
-    PlotTransform, uniform_grid_spacer,
+    Corner, GridInput, GridMark, Legend, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotTransform,
+    uniform_grid_spacer,
 };
 use shagreen_formats::figure::{Chart, Figure, Scale, Series, Tone};
 
 use crate::choices::scope::View;
 use crate::look::map_plot::map_plot;
-use crate::look::plot::{fixed, nice_step};
+use crate::look::plot::{fixed, nice_step, x_axis};
 use crate::look::theme::{tokens, tone_color};
 use crate::strings::scope as words;
 
@@ -96,14 +96,13 @@ fn chart_plot(ui: &mut Ui, name: &str, view: View, chart: &Chart) -> (Rect, Plot
     let t = tokens(ui.ctx());
     let [x, y] = chart.bounds();
     let scale = chart.x_scale;
-    let across =
-        AxisHints::new_x().label_spacing(Rangef::new(34.0, 44.0)).formatter(move |mark, _| match view {
-            // The lowest number of the vertical axis is there.
-            _ if mark.value <= scale.laid_out(x.0) => String::new(),
-            View::Waveform => format!("{:.0} ms", mark.value),
-            View::Spectrum => format!("{:.0} Hz", scale.coordinate(mark.value)),
-            View::Spectrogram | View::Level | View::Contact => format!("{:.0} s", mark.value),
-        });
+    let across = x_axis().formatter(move |mark, _| match view {
+        // The lowest number of the vertical axis is there.
+        _ if mark.value <= scale.laid_out(x.0) => String::new(),
+        View::Waveform => format!("{:.0} ms", mark.value),
+        View::Spectrum => format!("{:.0} Hz", scale.coordinate(mark.value)),
+        View::Spectrogram | View::Level | View::Contact => format!("{:.0} s", mark.value),
+    });
     // Step between grid lines: large enough that every number is legible.
     let step = match view {
         View::Waveform => 0.5 * y.1,

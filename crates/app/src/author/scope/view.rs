@@ -365,6 +365,11 @@ mod tests {
     }
 
     #[test]
+    fn the_acceleration_axis_is_symmetric_about_zero() {
+        with_seen(|seen| assert_eq!(chart(View::Waveform, seen).bounds()[1], (-1.0, 1.0)));
+    }
+
+    #[test]
     fn speed_and_force_are_those_of_the_touch() {
         with_seen(|seen| {
             let chart = chart(View::Contact, seen);

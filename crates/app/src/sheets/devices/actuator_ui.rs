@@ -105,7 +105,7 @@ impl DevicesSheet {
 
     fn file_ui(&mut self, ui: &mut Ui) {
         let field = TextEdit::singleline(&mut self.profile_path).hint_text(strings::PROFILE_HINT);
-        ui.add(field.desired_width(200.0)).accessible_name(strings::PROFILE_PATH);
+        ui.add(field.desired_width(130.0)).accessible_name(strings::PROFILE_PATH);
         let asked = Asked {
             title: strings::ACTUATOR,
             kind: strings::PROFILES,

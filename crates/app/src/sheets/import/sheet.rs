@@ -7,6 +7,7 @@ use shagreen_studio::open::OTHER_ENDINGS;
 use crate::browse::{Asked, Browse};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
+use crate::look::motion::busy_ui;
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::sheets::import::batch::{Batch, Content, State};
@@ -240,7 +241,7 @@ impl ImportSheet {
         );
         ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
             if self.batch.is_working() {
-                ui.spinner();
+                busy_ui(ui);
                 ui.add(
                     Label::new(RichText::new(strings::READING).small().color(t.text_weak)).selectable(false),
                 );

@@ -8,11 +8,8 @@ use shagreen_formats::library::{Library, LibraryError, read_library, write_libra
 use shagreen_formats::project::{ProjectError, read_project};
 
 use crate::state::figure_file::FigureFile;
-use crate::state::signal_export::SignalExport;
-use crate::state::signal_file::SignalFile;
 use crate::state::stroke_file::StrokeFile;
-use crate::state::texture_file::TextureFile;
-use crate::strings::{build, document, import as strings, signal, stroke};
+use crate::strings::{build, document, import as strings, stroke};
 
 /// Result of saving.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,8 +26,6 @@ pub(super) enum Content {
     Library(Box<Library>),
     Figure(FigureFile),
     Stroke(StrokeFile),
-    Signal(Box<SignalExport>),
-    Texture(TextureFile),
     /// The document writes it once that is permitted.
     Project,
 }
@@ -42,8 +37,6 @@ impl Content {
             Self::Library(library) => write_library(library),
             Self::Figure(figure) => figure.bytes()?,
             Self::Stroke(file) => file.bytes(),
-            Self::Texture(texture) => texture.bytes()?,
-            Self::Signal(export) => return export.write(path).map(|()| Outcome::Saved),
             Self::Project => return Ok(Outcome::MayBeWritten),
         };
         atomic::write(path, &bytes).map(|()| Outcome::Saved).map_err(|error| error.to_string())
@@ -51,7 +44,7 @@ impl Content {
 
     /// Why a file with these bytes must not be replaced by this content. `None` if it is of the same kind, of any
     /// version and even with errors in it.
-    fn refusal(&self, path: &Path, bytes: &[u8]) -> Option<String> {
+    fn refusal(&self, bytes: &[u8]) -> Option<String> {
         match self {
             Self::Library(_) => match read_library(bytes) {
                 Err(error @ (LibraryError::Format { .. } | LibraryError::Damaged { texture: None, .. })) => {
@@ -61,25 +54,12 @@ impl Content {
             },
             Self::Figure(figure) => (!figure.is_like(bytes)).then(|| build::no_figure(figure.format.word())),
             Self::Stroke(_) => (!StrokeFile::is_like(bytes)).then(|| stroke::NO_STROKE.to_owned()),
-            Self::Signal(_) => (!SignalFile::may_replace(path, bytes)).then(|| signal::NO_SIGNAL.to_owned()),
-            Self::Texture(texture) => {
-                (!texture.is_like(bytes)).then(|| signal::no_texture(texture.format.name()))
-            }
             Self::Project => is_project(bytes).err().map(|reason| document::no_project(&reason)),
         }
     }
 }
 
 pub(super) fn write(path: &Path, content: &Content, replaces: bool) -> Outcome {
-    if let Content::Signal(export) = content
-        && export.is_all
-    {
-        return match export.would_replace(path) {
-            Err(reason) => Outcome::Failed(reason),
-            Ok(true) if !replaces => Outcome::Exists,
-            Ok(_) => content.put(path).unwrap_or_else(Outcome::Failed),
-        };
-    }
     if path.symlink_metadata().is_ok() {
         // The file may have changed since the user was asked.
         match refusal(path, content) {
@@ -110,7 +90,7 @@ fn refusal(path: &Path, content: &Content) -> Option<String> {
     };
     match bytes {
         Err(error) => Some(strings::cannot_be_checked(&error.to_string())),
-        Ok(bytes) => content.refusal(path, &bytes),
+        Ok(bytes) => content.refusal(&bytes),
     }
 }
 

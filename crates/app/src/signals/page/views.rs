@@ -11,12 +11,13 @@ use crate::command::Command;
 use crate::figure_ui::framed_figure_ui;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::signals::analysis::ByRate;
-use crate::signals::editor_ui::{Asked, tools_ui};
+use crate::signals::editor_ui::tools_ui;
 use crate::signals::features_ui::features_ui;
 use crate::signals::figures::{features_figure, fidelity_figure, rates_figure};
 use crate::signals::maps::{Seen, map_ui};
 use crate::signals::slot::Place;
 use crate::signals::spatial_ui::{places_map_ui, spatial_ui};
+use crate::strings::digits::three_digits;
 use crate::strings::signals as strings;
 
 /// Range of the window length, in mm: from the shortest to the longest window of the paper.
@@ -63,9 +64,10 @@ impl SignalsPage {
         let t = tokens(ui.ctx());
         let text = RichText::new(strings::WINDOW).color(t.text_weak);
         ui.add(Label::new(text).selectable(false)).on_hover_text(strings::WINDOW_HELP);
-        ui.spacing_mut().slider_width = 220.0;
+        ui.spacing_mut().slider_width = (0.25 * ui.available_width()).min(220.0);
         let slider = egui::Slider::new(&mut self.window_mm, WINDOWS_MM.0..=WINDOWS_MM.1);
-        let slider = slider.logarithmic(true).suffix(" mm").max_decimals(2);
+        let shown = |window_mm: f64, _| three_digits(window_mm);
+        let slider = slider.logarithmic(true).suffix(" mm").custom_formatter(shown);
         ui.add(slider).accessible_name(strings::WINDOW).on_hover_text(strings::WINDOW_HELP);
     }
 
@@ -80,15 +82,10 @@ impl SignalsPage {
     fn places_ui(&mut self, ui: &mut Ui, commands: &mut Vec<Command>) {
         let signal = self.signal(Slot::B).map(Arc::clone);
         let window_m = self.window_m();
-        let asked = ui.add_enabled_ui(signal.is_some(), |ui| tools_ui(ui, &mut self.editor)).inner;
-        match (asked, &signal) {
-            (Some(Asked::Stretch), Some(signal)) => {
-                let stretched = self.editor.stretch(signal, window_m);
-                self.take_painted(stretched.map(Some));
-            }
-            (Some(Asked::Undo), _) => self.undo(),
-            (Some(Asked::Redo), _) => self.redo(),
-            _ => {}
+        let is_stretched = ui.add_enabled_ui(signal.is_some(), |ui| tools_ui(ui, &mut self.editor)).inner;
+        if let Some(signal) = signal.as_ref().filter(|_| is_stretched) {
+            let stretched = self.editor.stretch(signal, window_m);
+            self.take_painted(stretched.map(Some));
         }
         ui.add_space(GAP);
         let known = self.of_each(Place::by_window);
@@ -149,7 +146,7 @@ impl SignalsPage {
                 Some(Ok(compared)) => {
                     let figure = Arc::new(features_figure(compared, names));
                     let scroll = ScrollArea::both().id_salt("features").auto_shrink(false);
-                    commands.extend(scroll.show(left, |ui| features_ui(ui, compared, &figure)).inner);
+                    commands.extend(scroll.show(left, |ui| features_ui(ui, compared, names, &figure)).inner);
                 }
                 Some(Err(reason)) => {
                     let text = RichText::new(reason).color(tokens(left.ctx()).warning);

@@ -5,11 +5,14 @@ use std::time::Instant;
 
 use shagreen_formats::project::Project;
 use shagreen_studio::open::{Opened, open};
+use shagreen_studio::permitted_libraries::Permitted;
 
 use super::{Came, Document, DocumentFile};
 
 pub(super) fn read(path: &Path) -> (Project, DocumentFile) {
-    let Ok(Opened::Project(opened)) = open(path) else { panic!("{} is no project", path.display()) };
+    let Ok(Opened::Project(opened)) = open(path, &Permitted::All) else {
+        panic!("{} is no project", path.display())
+    };
     (opened.project, DocumentFile { path: path.to_owned(), sha256: Some(opened.sha256) })
 }
 

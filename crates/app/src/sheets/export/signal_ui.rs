@@ -5,8 +5,7 @@ use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::wav_encoding::{Level, SampleType};
 use shagreen_studio::render::SEAM_SECS;
 
-use crate::look::theme::GAP;
-use crate::state::signal_export::SignalExport;
+use crate::state::signal_file::{SignalFile, SignalOptions};
 use crate::strings::signal as strings;
 
 /// Shortest and longest duration, in seconds.
@@ -15,11 +14,10 @@ const SECS: std::ops::RangeInclusive<f64> = 0.05..=MAX_TRACK_SECS;
 const RATES_HZ: [u32; 6] = [4000, 8000, 16_000, 44_100, 48_000, 96_000];
 
 /// Draws the options; returns whether any has changed.
-pub(super) fn options_ui(ui: &mut Ui, export: &mut SignalExport) -> bool {
-    let before = (export.options.clone(), export.is_all);
-    let is_of_bench = export.file.is_of_bench();
-    let has_stroke = export.file.stroke.is_some() && !is_of_bench;
-    let options = &mut export.options;
+pub(super) fn options_ui(ui: &mut Ui, signal: &SignalFile, options: &mut SignalOptions) -> bool {
+    let before = options.clone();
+    let is_of_bench = signal.is_of_bench();
+    let has_stroke = signal.stroke.is_some() && !is_of_bench;
     ui.horizontal(|ui| {
         if has_stroke {
             ComboBox::from_id_salt("motion")
@@ -48,7 +46,7 @@ pub(super) fn options_ui(ui: &mut Ui, export: &mut SignalExport) -> bool {
     ui.horizontal(|ui| {
         ui.label(strings::RATE);
         // At least the rate of the model, or its highest frequencies would be folded back.
-        let lowest_hz = export.file.model_rate.0;
+        let lowest_hz = signal.model_rate.0;
         ComboBox::from_id_salt("rate")
             .selected_text(strings::rate(options.rate_hz))
             .show_ui(ui, |ui| {
@@ -83,10 +81,5 @@ pub(super) fn options_ui(ui: &mut Ui, export: &mut SignalExport) -> bool {
             });
         }
     });
-    if !export.all.is_empty() {
-        let text = strings::all_of(export.all.len());
-        ui.checkbox(&mut export.is_all, text).on_hover_text(strings::ALL_HELP);
-    }
-    ui.add_space(GAP);
-    before != (export.options.clone(), export.is_all)
+    before != *options
 }

@@ -1,0 +1,67 @@
+//! Context menu of an authored texture, in the list and on the canvas.
+
+use egui::{Response, Ui};
+use shagreen_formats::project::AuthoredTexture;
+use shagreen_studio::export::WAV;
+
+use crate::author::context_menu::{context_menu, menu_entry};
+use crate::author::new_texture::copy_of;
+use crate::command::clipboard::ClipboardCommand;
+use crate::command::{Command, FileCommand};
+use crate::panel::Panel;
+use crate::state::compare::{CompareCommand, Side};
+use crate::state::edit::Edit;
+use crate::strings::{authored as words, clipboard, compare, export};
+
+/// Draws the menu while it is open; returns the requested command.
+pub(crate) fn authored_menu(
+    response: &Response,
+    panel: &Panel<'_>,
+    texture: &AuthoredTexture,
+) -> Option<Command> {
+    let mut asked = None;
+    context_menu(response, |ui| asked = content_ui(ui, panel, texture));
+    asked
+}
+
+fn content_ui(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture) -> Option<Command> {
+    let key = texture.key;
+    let is_selected = key == panel.project.texture().key;
+    let mut asked = menu_entry(ui, words::RENAME, words::RENAME_HELP, Command::RenameAuthored(key));
+    // The shortcut duplicates the selected texture.
+    let duplicate = if is_selected {
+        Command::DuplicateTexture
+    } else {
+        Command::Edit(Edit::Author(copy_of(panel, texture)))
+    };
+    asked = menu_entry(ui, words::DUPLICATE, words::DUPLICATE_HELP, duplicate).or(asked);
+    ui.separator();
+    let copy = Command::Clipboard(ClipboardCommand::Copy(Some(key)));
+    asked = menu_entry(ui, clipboard::COPY, clipboard::COPY_HELP, copy).or(asked);
+    let can_go = panel.project.authored.len() > 1;
+    ui.add_enabled_ui(can_go, |ui| {
+        let cut = Command::Clipboard(ClipboardCommand::Cut(Some(key)));
+        asked = menu_entry(ui, clipboard::CUT, clipboard::CUT_HELP, cut).or(asked.take());
+    });
+    let paste = Command::Clipboard(ClipboardCommand::Paste);
+    asked = menu_entry(ui, clipboard::PASTE, clipboard::PASTE_HELP, paste).or(asked);
+    ui.separator();
+    ui.add_enabled_ui(can_go, |ui| {
+        let delete = Command::Edit(Edit::Remove(key));
+        asked = menu_entry(ui, words::DELETE, "", delete).or(asked.take());
+    });
+    ui.separator();
+    for side in [Side::A, Side::B] {
+        let is_there = panel.compare.side_of(key) == Some(side);
+        ui.add_enabled_ui(can_go && !is_there, |ui| {
+            let assign = Command::Compare(CompareCommand::Assign(side, key));
+            asked = menu_entry(ui, &compare::compare_as(side.letter()), "", assign).or(asked.take());
+        });
+    }
+    if is_selected {
+        ui.separator();
+        let to_export = Command::File(FileCommand::Export(WAV.id));
+        asked = menu_entry(ui, export::EXPORT, export::EXPORT_HELP, to_export).or(asked);
+    }
+    asked
+}

@@ -1,0 +1,36 @@
+//! Commands about the clipboard of the system.
+
+use egui::text_selection::LabelSelectionState;
+use egui::{Context, Event};
+
+/// Command about the clipboard. Authored textures are given by their keys; `None` is the selected one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ClipboardCommand {
+    /// Copies an authored texture.
+    Copy(Option<u32>),
+    /// Copies an authored texture, then deletes it.
+    Cut(Option<u32>),
+    /// Requests the text of the clipboard. It arrives later, as an event.
+    Paste,
+    /// Adds the authored texture that this text describes.
+    Read(String),
+}
+
+/// Clipboard commands of this frame. The window system reports the shortcuts as events. While a text field has the
+/// keyboard focus or text is selected, they apply to that text.
+pub(super) fn pressed(ctx: &Context) -> Vec<ClipboardCommand> {
+    if ctx.text_edit_focused() || has_selected_text(ctx) {
+        return Vec::new();
+    }
+    let command = |event: &Event| match event {
+        Event::Copy => Some(ClipboardCommand::Copy(None)),
+        Event::Cut => Some(ClipboardCommand::Cut(None)),
+        Event::Paste(text) => Some(ClipboardCommand::Read(text.clone())),
+        _ => None,
+    };
+    ctx.input(|i| i.events.iter().filter_map(command).collect())
+}
+
+fn has_selected_text(ctx: &Context) -> bool {
+    ctx.plugin_opt::<LabelSelectionState>().is_some_and(|state| state.lock().has_selection())
+}

@@ -1,0 +1,260 @@
+//! Files of an export: their paths, what they would replace, what they cannot store, and their content. All of it is
+//! computed in the background.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use shagreen_formats::atomic;
+use shagreen_formats::bounded_file::{self, FileKind};
+use shagreen_formats::library::{Provenance, TextureEntry, free_id, id_from_name};
+use shagreen_formats::wav::sidecar_path;
+use shagreen_studio::export::{ExportFormat, Rendered, WAV, lost_in_wav};
+
+use crate::session::authored_sources::AuthoredSources;
+use crate::state::audible_texture::AudibleTexture;
+use crate::state::bench_signal::BenchSignal;
+use crate::state::document::CREATED_BY;
+use crate::state::signal_file::{SignalFile, SignalOptions, Sounding};
+use crate::strings::{export as strings, import};
+
+/// What is exported.
+pub(super) enum What {
+    /// The audible texture.
+    Audible(Arc<AudibleTexture>),
+    /// All authored textures.
+    All(Arc<AuthoredSources>),
+}
+
+/// Format of the files, with its options.
+pub(super) enum Format {
+    /// Signals.
+    Wav(SignalOptions),
+    /// Texture models.
+    Model(&'static dyn ExportFormat),
+}
+
+/// An export.
+pub(super) struct Job {
+    pub(super) what: What,
+    pub(super) format: Format,
+    /// Path of the file; several files go into its folder.
+    pub(super) path: PathBuf,
+}
+
+/// Result of an export.
+pub(super) enum Outcome {
+    /// These files were written.
+    Saved(Vec<PathBuf>),
+    /// Nothing was written, because this number of files would be replaced.
+    Exists(usize),
+    /// Why the export failed.
+    Failed(String),
+}
+
+/// What the user must know before an export.
+#[derive(Default)]
+pub(super) struct Summary {
+    /// Properties that the files cannot store.
+    pub(super) lost: Vec<String>,
+    /// Names of contained textures that may not be redistributed.
+    pub(super) restricted: Vec<String>,
+}
+
+impl Job {
+    /// Writes the files. Existing files are replaced only with `replaces`, and only by files of the same format. Nothing
+    /// is written before all paths are checked and all textures are computed.
+    pub(super) fn run(&self, replaces: bool) -> Outcome {
+        let paths = self.paths();
+        match self.n_replaced(&paths) {
+            Err(reason) => return Outcome::Failed(reason),
+            Ok(n) if n > 0 && !replaces => return Outcome::Exists(n),
+            Ok(_) => {}
+        }
+        match self.write(&paths) {
+            Ok(()) => Outcome::Saved(paths),
+            Err(reason) => Outcome::Failed(reason),
+        }
+    }
+
+    /// Lists what the files cannot store.
+    ///
+    /// # Errors
+    /// States why a texture cannot be exported.
+    pub(super) fn summary(&self) -> Result<Summary, String> {
+        let mut summary = Summary::default();
+        match &self.format {
+            Format::Wav(options) => {
+                let texture = match &self.what {
+                    What::Audible(audible) => audible.entry.as_ref().ok(),
+                    What::All(_) => None,
+                };
+                for signal in self.signals()? {
+                    let follows_stroke = options.follows_stroke && signal.stroke.is_some();
+                    let rendered = Rendered { texture, has_tap: signal.tap.is_some(), follows_stroke };
+                    add(&mut summary.lost, lost_in_wav(rendered));
+                    add(&mut summary.restricted, signal.restricted);
+                }
+            }
+            Format::Model(format) => {
+                for entry in self.entries()? {
+                    add(&mut summary.lost, format.lost(&entry));
+                    if entry.provenance == Provenance::Restricted {
+                        add(&mut summary.restricted, [entry.name]);
+                    }
+                }
+            }
+        }
+        Ok(summary)
+    }
+
+    /// Signal of the Signals workspace that is exported.
+    pub(super) fn bench_signal(&self) -> Option<Arc<BenchSignal>> {
+        match (&self.what, &self.format) {
+            (What::Audible(audible), Format::Wav(_)) => match &audible.signal.as_ref().ok()?.sounding {
+                Sounding::Bench(signal) => Some(Arc::clone(signal)),
+                Sounding::Mix(..) | Sounding::Path(_) => None,
+            },
+            _ => None,
+        }
+    }
+
+    /// Paths of the files. All authored textures get files of their own names in the folder of the path.
+    fn paths(&self) -> Vec<PathBuf> {
+        let What::All(sources) = &self.what else { return vec![self.path.clone()] };
+        let folder = if self.path.is_dir() { Some(&*self.path) } else { self.path.parent() };
+        let ending = match &self.format {
+            Format::Wav(_) => WAV.ending,
+            Format::Model(format) => format.ending(),
+        };
+        paths_in(folder.unwrap_or(Path::new("")), sources.names(), ending)
+    }
+
+    /// Number of files that exist already.
+    ///
+    /// # Errors
+    /// Names a file that must not be replaced, because it is of another kind or cannot be read.
+    fn n_replaced(&self, paths: &[PathBuf]) -> Result<usize, String> {
+        let mut n = 0;
+        for path in paths {
+            let refused = |path: &Path| strings::not_replaced(&path.display().to_string());
+            if matches!(self.format, Format::Wav(_)) && !SignalFile::may_lie_beside(path) {
+                return Err(refused(&sidecar_path(path)));
+            }
+            if path.symlink_metadata().is_err() {
+                continue;
+            }
+            n += 1;
+            let bytes = bounded_file::read(path, FileKind::Recording)
+                .map_err(|error| import::cannot_be_checked(&error.to_string()))?;
+            let is_like = match &self.format {
+                Format::Wav(_) => SignalFile::may_replace(path, &bytes),
+                Format::Model(format) => format.is_like(&bytes),
+            };
+            if !is_like {
+                return Err(refused(path));
+            }
+        }
+        Ok(n)
+    }
+
+    fn write(&self, paths: &[PathBuf]) -> Result<(), String> {
+        match &self.format {
+            Format::Wav(options) => {
+                for (signal, path) in self.signals()?.iter().zip(paths) {
+                    signal.write(path, options)?;
+                }
+            }
+            Format::Model(format) => {
+                let bytes = |entry: &TextureEntry| {
+                    let bytes = format.bytes(entry, CREATED_BY);
+                    bytes.map_err(|error| strings::of_texture(&entry.name, &format!("{error:#}")))
+                };
+                let contents: Vec<Vec<u8>> = self.entries()?.iter().map(bytes).collect::<Result<_, _>>()?;
+                for (bytes, path) in contents.iter().zip(paths) {
+                    atomic::write(path, bytes).map_err(|error| error.to_string())?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn signals(&self) -> Result<Vec<SignalFile>, String> {
+        match &self.what {
+            What::Audible(audible) => audible.signal.clone().map(|signal| vec![signal]),
+            What::All(sources) => sources.signals(),
+        }
+    }
+
+    fn entries(&self) -> Result<Vec<TextureEntry>, String> {
+        match &self.what {
+            What::Audible(audible) => audible.entry.clone().map(|entry| vec![entry]),
+            What::All(sources) => sources.entries(),
+        }
+    }
+}
+
+/// Paths of files with these names in a folder. No two are the same.
+fn paths_in<S: AsRef<str>>(folder: &Path, names: impl IntoIterator<Item = S>, ending: &str) -> Vec<PathBuf> {
+    let mut ids: Vec<String> = Vec::new();
+    for name in names {
+        let id = free_id(&id_from_name(name.as_ref()), |id| ids.iter().any(|other| other == id));
+        ids.push(id);
+    }
+    ids.iter().map(|id| folder.join(id).with_extension(ending)).collect()
+}
+
+/// Adds the texts that are not in the list yet.
+fn add(list: &mut Vec<String>, texts: impl IntoIterator<Item = String>) {
+    for text in texts {
+        if !list.contains(&text) {
+            list.push(text);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{AudibleTexture, Format, Job, Outcome, What, paths_in};
+    use shagreen_formats::starter::starter_library;
+    use shagreen_studio::export::FORMATS;
+    use std::path::Path;
+    use std::sync::Arc;
+
+    #[test]
+    fn names_of_files_never_clash() {
+        let paths = paths_in(Path::new("/a"), ["Oak", "oak", "Oak 2", "…"], "xml");
+        let expected = ["/a/oak.xml", "/a/oak-2.xml", "/a/oak-2-2.xml", "/a/texture.xml"];
+        assert_eq!(paths, expected.map(Path::new));
+    }
+
+    #[test]
+    fn a_file_is_replaced_by_its_like_only_and_only_when_that_was_said() {
+        let folder = tempfile::tempdir().unwrap();
+        let library = starter_library().unwrap();
+        let entry = library.textures[0].clone();
+        let audible = Arc::new(AudibleTexture {
+            name: entry.name.clone(),
+            signal: Err("no signal".to_owned()),
+            entry: Ok(entry),
+        });
+        for format in FORMATS {
+            let path = folder.path().join("mine").with_extension(format.ending());
+            let job = |path: &Path| Job {
+                what: What::Audible(Arc::clone(&audible)),
+                format: Format::Model(format),
+                path: path.to_owned(),
+            };
+            assert!(matches!(job(&path).run(false), Outcome::Saved(paths) if paths == [path.clone()]));
+            assert!(matches!(job(&path).run(false), Outcome::Exists(1)));
+            assert!(matches!(job(&path).run(true), Outcome::Saved(_)));
+            assert_eq!(job(&path).summary().unwrap().lost, format.lost(&library.textures[0]));
+            std::fs::write(&path, "my notes").unwrap();
+            for replaces in [false, true] {
+                assert!(matches!(job(&path).run(replaces), Outcome::Failed(_)), "{replaces}");
+                assert!(matches!(job(folder.path()).run(replaces), Outcome::Failed(_)), "{replaces}");
+            }
+            assert_eq!(std::fs::read(&path).unwrap(), b"my notes");
+            std::fs::remove_file(&path).unwrap();
+        }
+    }
+}

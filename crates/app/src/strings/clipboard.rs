@@ -1,0 +1,34 @@
+//! Copying authored textures to the clipboard, and pasting them.
+
+pub const COPY: &str = "Copy";
+pub const COPY_HELP: &str =
+    "Copies this texture to the clipboard, as text. It can be pasted into another project.";
+pub const CUT: &str = "Cut";
+pub const CUT_HELP: &str = "Copies this texture to the clipboard and deletes it here.";
+pub const PASTE: &str = "Paste";
+pub const PASTE_HELP: &str = "Adds the authored texture on the clipboard at its position.";
+pub const CANNOT_CUT: &str =
+    "Copied, but not deleted: a project needs at least one authored texture. Add another one first.";
+
+pub fn copied(name: &str) -> String {
+    format!("Copied {name}")
+}
+
+pub fn pasted(name: &str) -> String {
+    format!("Pasted {name}")
+}
+
+/// Warning that the position was chosen in another space, named by its library and its axes.
+pub fn from_another_space(library: &str, [across, up]: &[[String; 2]; 2]) -> String {
+    let axis = |[low, high]: &[String; 2]| format!("{low} to {high}");
+    format!(
+        "its position was chosen in another space (library {library}, axes {} and {}), so it may feel different here",
+        axis(across),
+        axis(up)
+    )
+}
+
+/// Warning that the library has no textures of these names, which were pinned.
+pub fn not_pinned(names: &[String]) -> String {
+    format!("not pinned, because this library lacks them: {}", names.join(", "))
+}

@@ -1,0 +1,73 @@
+//! Execution of commands about the clipboard.
+
+use egui::{Context, ViewportCommand};
+use shagreen_formats::project::AuthoredTexture;
+use shagreen_formats::project::clipboard::{read_copied_texture, write_copied_texture};
+
+use super::Window;
+use crate::author::new_texture::next_color;
+use crate::command::Command;
+use crate::command::clipboard::ClipboardCommand;
+use crate::panel::Panel;
+use crate::state::clipboard::{copied, pasted};
+use crate::state::edit::Edit;
+use crate::strings::clipboard as strings;
+
+impl Window {
+    pub(super) fn carry_out_clipboard(&mut self, command: ClipboardCommand, ctx: &Context) {
+        match command {
+            ClipboardCommand::Copy(key) => {
+                if let Some((_, name)) = self.copy_authored(key, ctx) {
+                    self.session.say(strings::copied(&name));
+                }
+            }
+            ClipboardCommand::Cut(key) => match self.copy_authored(key, ctx) {
+                Some((key, _)) if self.project.authored.len() > 1 => {
+                    self.carry_out(Command::Edit(Edit::Remove(key)), ctx);
+                }
+                Some(_) => self.session.say(strings::CANNOT_CUT.to_owned()),
+                None => {}
+            },
+            ClipboardCommand::Paste => {
+                // A text field with the keyboard focus would take the text.
+                ctx.memory_mut(egui::Memory::stop_text_input);
+                ctx.send_viewport_cmd(ViewportCommand::RequestPaste);
+            }
+            ClipboardCommand::Read(text) => self.paste_authored(&text, ctx),
+        }
+    }
+
+    /// Copies an authored texture, by its key, or the selected one. Returns its key and name.
+    fn copy_authored(&self, key: Option<u32>, ctx: &Context) -> Option<(u32, String)> {
+        let key = key.unwrap_or(self.project.texture().key);
+        let texture = self.project.authored.iter().find(|texture| texture.key == key)?;
+        let copied = copied(texture, self.session.library(), self.session.poles());
+        ctx.copy_text(write_copied_texture(&copied));
+        Some((key, texture.name.clone()))
+    }
+
+    /// Adds the authored texture that a text describes, as one step.
+    fn paste_authored(&mut self, text: &str, ctx: &Context) {
+        let copied = match read_copied_texture(text) {
+            Ok(copied) => copied,
+            Err(error) => {
+                self.session.say(error.to_string());
+                return;
+            }
+        };
+        let pasted = pasted(copied, &self.project, self.session.library(), self.session.poles());
+        let is_used = |color: u8| self.project.authored.iter().any(|texture| texture.color == color);
+        let color = if is_used(pasted.texture.color) {
+            next_color(&Panel::new(&self.project, &self.session, &self.compare, &self.pictures))
+        } else {
+            pasted.texture.color
+        };
+        let mut said = vec![strings::pasted(&pasted.texture.name)];
+        said.extend(pasted.warnings);
+        // Each paste is a step of its own, even if they follow each other quickly.
+        self.gesture.begin_another();
+        let texture = AuthoredTexture { color, ..pasted.texture };
+        self.carry_out(Command::Edit(Edit::Author(texture)), ctx);
+        self.say_warnings(&said);
+    }
+}

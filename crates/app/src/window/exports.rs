@@ -1,0 +1,35 @@
+//! Opens the export sheet.
+
+use shagreen_formats::library::id_from_name;
+use shagreen_studio::export::{WAV, listed};
+
+use super::Window;
+use crate::panel::Panel;
+use crate::sheets::Sheet;
+use crate::sheets::export::{ExportSheet, ExportSubject};
+use crate::state::audible_texture::AudibleTexture;
+
+impl Window {
+    /// Opens the export sheet with the format of this id, or says why the texture cannot be exported in it.
+    pub(super) fn open_export(&mut self, format: &str) {
+        let Some(format) = listed().find(|listed| listed.id == format) else { return };
+        let compared = self.compared_texture();
+        let contact = self.pages.stage.pad.contact(&self.session);
+        let signal = self.session.signal(&self.project, compared.as_deref(), contact);
+        let entry = self.session.texture_entry(&self.project, compared.as_deref());
+        let problem = if format == WAV { signal.as_ref().err() } else { entry.as_ref().err() };
+        if let Some(reason) = problem {
+            self.session.say(reason.clone());
+            return;
+        }
+        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
+        let name = panel.heard_name();
+        let id = id_from_name(&name);
+        // A blind comparison hides the authored textures, and a signal of the Signals workspace takes their place.
+        let n_authored = if self.session.authored().is_some() { self.project.authored.len() } else { 0 };
+        let audible = AudibleTexture { name, signal, entry };
+        let subject = ExportSubject { audible, n_authored, contact };
+        let sheet = ExportSheet::new(subject, format, &self.exports_folder, &id);
+        self.sheet = Sheet::Export(Box::new(sheet));
+    }
+}

@@ -1,0 +1,207 @@
+//! The export sheet: signals and texture models, one or all, and what a format cannot store.
+
+use std::ffi::OsStr;
+use std::path::Path;
+
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, pos2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shagreen_app::choices::signals::{Slot, View};
+use shagreen_app::strings::{authored, document, export, import, signal, signals};
+use shagreen_core::texture::blend::Mode;
+use shagreen_formats::wav::SidecarV1;
+use shagreen_studio::export::{FORMATS, WAV};
+
+use crate::projects::{menu, rename};
+use crate::support::{
+    Author, author, choose_mode, click, drag, enter_path, says, unnamed_controls, wait, wait_for_field,
+    window, write_into,
+};
+
+#[test]
+fn all_authored_textures_are_exported_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    rename(&mut harness, "Oak");
+    click(&mut harness, authored::ADD);
+    harness.run_steps(4);
+    rename(&mut harness, "Oak");
+    wait_for_field(&mut harness);
+    menu(&mut harness, export::EXPORT);
+    harness.run_steps(4);
+    click(&mut harness, &export::all_of(2));
+    click(&mut harness, signal::LOOP);
+    harness.run_steps(2);
+    let path = folder.path().join("any.wav");
+    enter_path(&mut harness, export::PATH, &path);
+    let saved = export::saved_all(2, &folder.path().display().to_string());
+    wait(&mut harness, "they are exported", |h| h.query_by_label(&saved).is_some());
+    let mut names: Vec<String> = std::fs::read_dir(folder.path())
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["oak-2.json", "oak-2.wav", "oak.json", "oak.wav"]);
+    assert_eq!(std::fs::read(folder.path().join("oak.wav")).unwrap().len(), 68 + 4 * 240_000);
+    click(&mut harness, import::CLOSE);
+    harness.run_steps(3);
+    // They are replaced only when that was said.
+    menu(&mut harness, export::EXPORT);
+    harness.run_steps(4);
+    click(&mut harness, &export::all_of(2));
+    enter_path(&mut harness, export::PATH, &path);
+    wait(&mut harness, "it asks", |h| says(h, &export::exists(2)));
+    click(&mut harness, import::CANCEL);
+    harness.run_steps(3);
+
+    // The same in every other format.
+    let terms = export::lost("tags, description, license and origin");
+    for format in FORMATS {
+        menu(&mut harness, export::EXPORT);
+        harness.run_steps(4);
+        click(&mut harness, format.name());
+        // What the format cannot store is listed above the choice, and moves it.
+        wait(&mut harness, "it is checked", |h| says(h, &terms));
+        harness.run_steps(3);
+        click(&mut harness, &export::all_of(2));
+        enter_path(&mut harness, export::PATH, &path);
+        let saved = export::saved_all(2, &folder.path().display().to_string());
+        wait(&mut harness, "they are exported", |h| h.query_by_label(&saved).is_some());
+        for name in ["oak", "oak-2"] {
+            let bytes = std::fs::read(folder.path().join(name).with_extension(format.ending())).unwrap();
+            assert!(format.is_like(&bytes), "{name}");
+        }
+        click(&mut harness, import::CLOSE);
+        harness.run_steps(3);
+    }
+}
+
+/// The audible texture is exported at the speed and force of the automatic stroke, and the sidecar describes the
+/// signal.
+#[test]
+fn what_is_heard_is_exported_as_a_signal() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("oak.wav");
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    rename(&mut harness, "Oak copy");
+    menu(&mut harness, export::EXPORT);
+    harness.run_steps(4);
+    let field = harness.get_by_role_and_label(Role::TextInput, export::PATH);
+    assert!(field.accesskit_node().value().unwrap().ends_with("oak-copy.wav"));
+    enter_path(&mut harness, export::PATH, &path);
+    let saved = import::saved(&path.display().to_string());
+    wait(&mut harness, "it is exported", |h| h.query_by_label(&saved).is_some());
+    click(&mut harness, import::CLOSE);
+    harness.run_steps(3);
+
+    let sidecar: SidecarV1 =
+        serde_json::from_slice(&std::fs::read(folder.path().join("oak.json")).unwrap()).unwrap();
+    assert_eq!((sidecar.rate_hz, sidecar.seconds, sidecar.at), (48_000, 5.0, Some([50.0, 50.0])));
+    assert_eq!((sidecar.trace.speed_mm_per_s[0], sidecar.blend.as_str()), (100.0, "field"));
+    assert_eq!(sidecar.label_source.as_deref(), Some("physical"));
+    let bytes = std::fs::read(&path).unwrap();
+    let (head, samples) = bytes.split_at(bytes.len() - 4 * 240_000);
+    assert!(head.starts_with(b"RIFF"));
+    let squares =
+        samples.as_chunks::<4>().0.iter().map(|bytes| f64::from(f32::from_le_bytes(*bytes)).powi(2));
+    // Players get at most −1 dB; the sidecar states the acceleration at full scale.
+    let level = sidecar.full_scale * (squares.sum::<f64>() / 240_000.0).sqrt();
+    let peak =
+        samples.as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes).abs()).fold(0.0, f32::max);
+    assert!((peak - 0.891).abs() < 1e-3, "{peak}");
+    // The level equals that of the shown spectrum, within the noise of five seconds.
+    let spectra = window(&harness).session().spectra();
+    let steps = spectra.frequencies.windows(2).map(|f| f[1].0 - f[0].0);
+    let modeled = steps.zip(&spectra.blend).map(|(df, p)| df * p).sum::<f64>().sqrt();
+    assert!((level / modeled - 1.0).abs() < 0.15, "{level} m/s² for {modeled}");
+
+    let refused = |path: &Path| export::not_replaced(&path.display().to_string());
+    // A WAV file without a sidecar of Shagreen is not overwritten.
+    let other = folder.path().join("recorded.wav");
+    std::fs::copy(&path, &other).unwrap();
+    menu(&mut harness, export::EXPORT);
+    write_into(&mut harness, export::PATH, &other.display().to_string());
+    harness.key_press(Key::Enter);
+    wait(&mut harness, "it refuses", |h| says(h, &refused(&other)));
+    click(&mut harness, document::CANCEL);
+    harness.run_steps(4);
+
+    // Neither is another kind of file at the path of the sidecar.
+    let other = folder.path().join("other.wav");
+    let beside = folder.path().join("other.json");
+    std::fs::write(&beside, "{\"mine\": 1}").unwrap();
+    menu(&mut harness, export::EXPORT);
+    enter_path(&mut harness, export::PATH, &other);
+    wait(&mut harness, "it refuses", |h| says(h, &refused(&beside)));
+    assert!(!other.exists());
+}
+
+#[test]
+fn each_format_lists_what_it_cannot_store() {
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    menu(&mut harness, export::EXPORT);
+    harness.run_steps(4);
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    let one_stroke = export::lost("all tip speeds and normal forces except those of this stroke");
+    wait(&mut harness, "it is checked", |h| says(h, &one_stroke));
+    let has_length = |h: &Author| h.query_by_role_and_label(Role::SpinButton, signal::LENGTH).is_some();
+    assert!(has_length(&harness) && says(&harness, WAV.help));
+    let terms = export::lost("tags, description, license and origin");
+    assert!(!says(&harness, &terms));
+    let hatt = FORMATS[0];
+    click(&mut harness, hatt.name());
+    wait(&mut harness, "it is checked", |h| says(h, &terms));
+    assert!(!says(&harness, &one_stroke) && !has_length(&harness));
+    let field = harness.get_by_role_and_label(Role::TextInput, export::PATH);
+    let path = field.accesskit_node().value().unwrap();
+    assert_eq!(Path::new(&path).extension(), Some(OsStr::new("xml")), "the ending follows the format");
+    harness.run_steps(3);
+    click(&mut harness, import::CANCEL);
+    harness.run_steps(4);
+    // A mode that mixes signals has no texture model.
+    choose_mode(&mut harness, Mode::Shared);
+    menu(&mut harness, export::EXPORT);
+    harness.run_steps(4);
+    assert!(harness.get_by_label(hatt.name()).accesskit_node().is_disabled());
+    assert!(!harness.get_by_label(WAV.name).accesskit_node().is_disabled());
+}
+
+/// A painted signal is asked about before it is lost, but not after it was exported.
+#[test]
+fn an_exported_signal_counts_as_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("painted.wav");
+    let mut harness = author();
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
+    harness.run_steps(2);
+    wait_for_field(&mut harness);
+    click(&mut harness, &signals::take_heard(Slot::A));
+    wait(&mut harness, "a signal is there", |h| window(h).signals().signal(Slot::A).is_some());
+    harness.run_steps(2);
+    click(&mut harness, signals::COPY_OF_A);
+    click(&mut harness, signals::view(View::Places));
+    harness.run_steps(2);
+    let map = harness.get_by_role_and_label(Role::Canvas, signals::PAINTED_MAP).rect();
+    let at = |across: f32| pos2(map.left() + across * map.width(), map.bottom() - 0.1 * map.height());
+    drag(&mut harness, at(0.35), at(0.55));
+    assert_eq!(window(&harness).signals().felt(), Some(Slot::B), "it is felt at once");
+    menu(&mut harness, document::QUIT);
+    assert!(says(&harness, document::LEAVE_PAINTING));
+    click(&mut harness, document::CANCEL);
+    harness.run_steps(3);
+    menu(&mut harness, export::EXPORT);
+    enter_path(&mut harness, export::PATH, &path);
+    let saved = import::saved(&path.display().to_string());
+    wait(&mut harness, "it is exported", |h| h.query_by_label(&saved).is_some());
+    click(&mut harness, import::CLOSE);
+    harness.run_steps(3);
+    menu(&mut harness, document::QUIT);
+    assert!(!says(&harness, document::LEAVE_PAINTING));
+    // Painted once more, it is asked about again.
+    drag(&mut harness, at(0.35), at(0.55));
+    menu(&mut harness, document::QUIT);
+    assert!(says(&harness, document::LEAVE_PAINTING));
+}

@@ -1,0 +1,231 @@
+//! Every workspace, menu and sheet of the window in turn, for tests that apply to all of them.
+//!
+//! Not included: results of prompts and photos, which need a network; they have tests of their own.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shagreen_app::Begin;
+use shagreen_app::choices::signals::{FromA, Slot, View};
+use shagreen_app::choices::tour::Step;
+use shagreen_app::command::signals::SignalsCommand;
+use shagreen_app::command::stroke::StrokeCommand;
+use shagreen_app::command::{Command, FileCommand};
+use shagreen_app::state::compare::{CompareCommand, Side};
+use shagreen_app::state::edit::Edit;
+use shagreen_app::state::files::StoragePaths;
+use shagreen_app::strings::{self, build, conflict, document, help, import, map, signals};
+use shagreen_app::workspace::Workspace;
+use shagreen_core::space::heat_map::Quantity;
+use shagreen_core::space::space_build::FeatureKind;
+use shagreen_core::texture::blend::Mode;
+use shagreen_core::units::Hertz;
+use shagreen_formats::project::write_project;
+use shagreen_studio::export::WAV;
+use shagreen_studio::project::new_project;
+
+use crate::import::recording;
+use crate::support::{Author, begin, choose, click, drop_files, says, wait, wait_for_field, window};
+
+/// Kind of a view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// A workspace in some state.
+    Workspace,
+    /// A menu or the tour, over a workspace that stays usable.
+    Menu,
+    /// A sheet, over a workspace that is not usable.
+    Sheet,
+}
+
+/// Test of a view with this name and kind.
+type Look<'a> = dyn FnMut(&mut Author, &str, Kind) + 'a;
+
+/// Calls `look` for every view of a window on a new project. Files are written into `folder`.
+pub(crate) fn each_view(harness: &mut Author, folder: &Path, look: &mut Look<'_>) {
+    wait_for_field(harness);
+    author_views(harness, look);
+    menus(harness, look);
+    build_views(harness, look);
+    signals_views(harness, look);
+    carry_out(harness, Command::Show(Workspace::Author));
+    show(harness, look, "Author, several textures", Kind::Workspace);
+    sheets(harness, look);
+    import_views(harness, look);
+    questions(harness, folder, look);
+}
+
+/// Initial content of a window that offers a project which a crashed program left in `folder`.
+pub(crate) fn with_leftover(folder: &Path) -> Begin {
+    let recovery = folder.join("recovery");
+    std::fs::create_dir_all(&recovery).unwrap();
+    let bytes = write_project(&new_project(), Path::new(""), "test");
+    std::fs::write(recovery.join("1-1.shagreen"), bytes).unwrap();
+    std::fs::write(recovery.join("1-1.origin"), "/somewhere/Woods.shagreen").unwrap();
+    std::fs::write(recovery.join("1-1.lock"), "").unwrap();
+    let keeping = StoragePaths { recovery: Some(recovery), ..StoragePaths::default() };
+    Begin { keeping, ..begin(new_project()) }
+}
+
+/// Executes a command as if the user had asked for it.
+pub(crate) fn carry_out(harness: &mut Author, command: Command) {
+    let ctx = harness.ctx.clone();
+    harness.state_mut().as_mut().expect("a window after the first frame").carry_out(command, &ctx);
+    harness.run_steps(4);
+}
+
+/// Looks at the present view, with the pointer outside the window and all animations ended.
+fn show(harness: &mut Author, look: &mut Look<'_>, name: &str, kind: Kind) {
+    harness.remove_cursor();
+    harness.run_steps(4);
+    look(harness, name, kind);
+}
+
+fn author_views(harness: &mut Author, look: &mut Look<'_>) {
+    show(harness, look, "Author", Kind::Workspace);
+    let first = window(harness).session().textures()[0].id.clone();
+    carry_out(harness, Command::Edit(Edit::Solo(Some(first))));
+    show(harness, look, "Author, texture selected", Kind::Workspace);
+    carry_out(harness, Command::Edit(Edit::Solo(None)));
+    carry_out(harness, Command::TogglePathTool);
+    show(harness, look, "Author, path tool", Kind::Workspace);
+    for name in ["Brick", "Cotton weave"] {
+        click(harness, &strings::go_to(name));
+    }
+    assert!(window(harness).project().texture().path.is_some());
+    show(harness, look, "Author, path", Kind::Workspace);
+    carry_out(harness, Command::TogglePathTool);
+    carry_out(harness, Command::Edit(Edit::SetMode(Mode::Shared)));
+    carry_out(harness, Command::ShowMap(Some(Quantity::Centroid)));
+    wait(harness, "the map is there", |h| says(h, ", from ") && !says(h, map::WAITING));
+    show(harness, look, "Author, heat map", Kind::Workspace);
+    carry_out(harness, Command::ShowMap(None));
+    carry_out(harness, Command::DuplicateTexture);
+    carry_out(harness, Command::Compare(CompareCommand::Hear(Side::A)));
+    show(harness, look, "Author, comparison", Kind::Workspace);
+    carry_out(harness, Command::Compare(CompareCommand::SetBlind(true)));
+    carry_out(harness, Command::Compare(CompareCommand::Hear(Side::X)));
+    show(harness, look, "Author, blind comparison", Kind::Workspace);
+    carry_out(harness, Command::Compare(CompareCommand::SetBlind(false)));
+    // An edit ends the comparison.
+    carry_out(harness, Command::DuplicateTexture);
+}
+
+fn menus(harness: &mut Author, look: &mut Look<'_>) {
+    for menu in [document::FILE, help::HELP] {
+        click(harness, menu);
+        show(harness, look, &format!("menu {menu}"), Kind::Menu);
+        harness.key_press(Key::Escape);
+        harness.run_steps(4);
+    }
+    carry_out(harness, Command::BeginTour);
+    for i in 1..=Step::ALL.len() {
+        show(harness, look, &format!("tour, card {i}"), Kind::Menu);
+        click(harness, if i == Step::ALL.len() { help::DONE } else { help::NEXT });
+    }
+}
+
+fn build_views(harness: &mut Author, look: &mut Look<'_>) {
+    carry_out(harness, Command::Show(Workspace::Build));
+    show(harness, look, "Build", Kind::Workspace);
+    harness.get_by_label(build::SIMULATE).click_accesskit();
+    harness.run_steps(2);
+    wait(harness, "the panel has judged", |h| !window(h).build().judgments().is_reading());
+    harness.run_steps(2);
+    show(harness, look, "Build, judgments read", Kind::Workspace);
+    harness.get_by_role_and_label(Role::SpinButton, build::PERMUTATIONS).set_value_accesskit(19.0);
+    harness.run_steps(2);
+    harness.get_by_role_and_label(Role::ComboBox, build::FEATURES).scroll_to_me();
+    harness.run_steps(4);
+    choose(harness, build::FEATURES, build::features(FeatureKind::Physical));
+    harness.get_by_label(build::BUILD_SPACE).click_accesskit();
+    harness.run_steps(2);
+    wait(harness, "the space is built", |h| !window(h).build().is_building());
+    show(harness, look, "Build, space built", Kind::Workspace);
+}
+
+fn signals_views(harness: &mut Author, look: &mut Look<'_>) {
+    carry_out(harness, Command::Show(Workspace::Signals));
+    show(harness, look, "Signals", Kind::Workspace);
+    let of_signals = [SignalsCommand::TakeHeard(Slot::A), SignalsCommand::MakeB(FromA::Copy)];
+    for (command, slot) in of_signals.into_iter().zip(Slot::ALL) {
+        carry_out(harness, Command::Signals(command));
+        wait(harness, "a signal is there", |h| window(h).signals().signal(slot).is_some());
+        harness.run_steps(2);
+    }
+    for view in [View::Times, View::Places, View::Differences] {
+        click(harness, signals::view(view));
+        if view == View::Differences {
+            wait(harness, "both are compared", |h| {
+                let page = window(h).signals();
+                page.compared().is_some() && Slot::ALL.iter().all(|slot| page.by_rate(*slot).is_some())
+            });
+        } else {
+            // Spectrograms are computed in the background; their labels do not wait for them.
+            let start = Instant::now();
+            wait(harness, "some time", |_| start.elapsed() > Duration::from_secs(1));
+        }
+        show(harness, look, &format!("Signals, {}", signals::view(view)), Kind::Workspace);
+    }
+}
+
+fn sheets(harness: &mut Author, look: &mut Look<'_>) {
+    let first = window(harness).session().textures()[0].id.clone();
+    for (name, command) in [
+        ("import, empty", Command::OpenImport),
+        ("save library", Command::OpenSave),
+        ("save project", Command::File(FileCommand::SaveAs)),
+        ("export signal", Command::File(FileCommand::Export(WAV.id))),
+        ("export texture", Command::File(FileCommand::Export("hatt"))),
+        ("devices", Command::OpenDevices),
+        ("open", Command::File(FileCommand::AskWhatToOpen)),
+        ("open stroke", Command::Stroke(StrokeCommand::AskWhatToOpen)),
+        ("open signal", Command::Signals(SignalsCommand::AskWhatToOpen(Slot::A))),
+        ("gallery", Command::File(FileCommand::OpenGallery)),
+        ("shortcuts", Command::OpenShortcuts),
+        ("palette", Command::OpenPalette),
+        ("guide", Command::OpenGuide),
+        ("texture", Command::OpenTexture(first)),
+    ] {
+        carry_out(harness, command);
+        // Lists of outputs, pens and folders come from the background.
+        harness.run_steps(4);
+        show(harness, look, &format!("sheet {name}"), Kind::Sheet);
+        carry_out(harness, Command::CloseSheet);
+    }
+}
+
+fn import_views(harness: &mut Author, look: &mut Look<'_>) {
+    let text = recording("cork", 6.0, Hertz(1000.0));
+    drop_files(harness, &[("cork_floor.csv", text.as_bytes())]);
+    let unit = import::answer_of("acceleration_unit");
+    wait(harness, "the unit is asked for", |h| h.query_by_role_and_label(Role::ComboBox, &unit).is_some());
+    show(harness, look, "sheet import, with a question", Kind::Sheet);
+    choose(harness, &unit, "m/s²");
+    wait(harness, "the texture is fitted", |h| {
+        h.query_by_label(&import::add(1)).is_some_and(|n| !n.accesskit_node().is_disabled())
+    });
+    show(harness, look, "sheet import, fitted", Kind::Sheet);
+    carry_out(harness, Command::CloseSheet);
+}
+
+/// Sheets that ask about unsaved changes and about a project file that has changed.
+fn questions(harness: &mut Author, folder: &Path, look: &mut Look<'_>) {
+    carry_out(harness, Command::File(FileCommand::New));
+    assert!(says(harness, document::LEAVE_TITLE));
+    show(harness, look, "sheet unsaved changes", Kind::Sheet);
+    carry_out(harness, Command::CloseSheet);
+    let path = folder.join("Woods.shagreen");
+    carry_out(harness, Command::File(FileCommand::SaveTo(path.clone())));
+    wait(harness, "it is saved", |h| !window(h).document().is_changed());
+    std::fs::write(&path, write_project(&new_project(), Path::new(""), "test")).unwrap();
+    carry_out(harness, Command::DuplicateTexture);
+    show(harness, look, "Author, project with a file", Kind::Workspace);
+    carry_out(harness, Command::File(FileCommand::Save));
+    wait(harness, "the conflict is shown", |h| says(h, conflict::TITLE));
+    show(harness, look, "sheet conflict", Kind::Sheet);
+    carry_out(harness, Command::CloseSheet);
+}

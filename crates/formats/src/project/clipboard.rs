@@ -1,0 +1,266 @@
+//! An authored texture as text, for the clipboard: copied from one project and pasted into another.
+//!
+//! ```json
+//! {
+//!  "shagreen": "authored texture",
+//!  "version": 1,
+//!  "library": "Starter library",
+//!  "axes": [["rough", "smooth"], ["hard", "soft"]],
+//!  "pinned": {"oak": "Oak"},
+//!  "texture": {"key": 1, "name": "Oak copy", "rough_smooth": 41.5, "hard_soft": 70.0, "blend": {…}}
+//! }
+//! ```
+//!
+//! `texture` is an authored texture in the project format. `library` and `axes` name the space in which its position was
+//! chosen, and `pinned` names its pinned textures, so that another project can say what it lacks.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::layout;
+use crate::own_json::{HeaderFault, check_density};
+use crate::parser_words::plain;
+use crate::project::read::authored_texture;
+use crate::project::v1::AuthoredV1;
+use crate::project::write::authored;
+use crate::project::{AuthoredTexture, ProjectError};
+use crate::text_limits::{self, MAX_ID, MAX_NAME, MAX_NOTES};
+
+/// Value of the `shagreen` field.
+const KIND: &str = "authored texture";
+/// Version that is written and read.
+const VERSION: u32 = 1;
+/// Maximum length of the text, in bytes; it may contain a picture.
+const MAX_BYTES: usize = 16 << 20;
+/// Nesting depth up to which values get their own lines.
+const OPEN_DEPTH: usize = 1;
+
+/// A copied authored texture, with the names of what it refers to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CopiedTexture {
+    /// The texture. Its key has no meaning outside its project.
+    pub texture: AuthoredTexture,
+    /// Name of the library of its project.
+    pub library: String,
+    /// Words at the ends of the x axis and of the y axis.
+    pub axes: [[String; 2]; 2],
+    /// Names of its pinned textures, by identifier.
+    pub pinned: BTreeMap<String, String>,
+}
+
+/// Why a text is not a copied authored texture.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CopiedTextureError {
+    /// Text of another kind.
+    #[error("the clipboard contains no authored texture; copy one in Shagreen first")]
+    Foreign,
+    /// Another version of the format.
+    #[error(
+        "the authored texture on the clipboard has version {found}, but this program reads version {VERSION}; copy it with this version of Shagreen"
+    )]
+    Version {
+        /// Value of the `version` field.
+        found: String,
+    },
+    /// The text is longer than any authored texture.
+    #[error(
+        "the text on the clipboard has {n_bytes} bytes, but at most {MAX_BYTES} are possible; copy a texture with a smaller picture"
+    )]
+    TooLarge {
+        /// Length of the text.
+        n_bytes: usize,
+    },
+    /// The text is incomplete, or a field is missing or of the wrong type.
+    #[error("the authored texture on the clipboard is damaged ({reason}); copy it again")]
+    Damaged {
+        /// The parser's message, with line and column.
+        reason: String,
+    },
+    /// A value is out of range.
+    #[error("the authored texture on the clipboard is invalid: {source}")]
+    Invalid {
+        /// What is wrong.
+        source: ProjectError,
+    },
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CopiedV1 {
+    shagreen: String,
+    version: u32,
+    library: String,
+    axes: [[String; 2]; 2],
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pinned: BTreeMap<String, String>,
+    texture: AuthoredV1,
+}
+
+/// The fields that identify the text.
+#[derive(Deserialize)]
+struct Mark {
+    #[serde(default)]
+    shagreen: Value,
+    #[serde(default)]
+    version: Value,
+}
+
+/// Serializes a copied texture as JSON.
+pub fn write_copied_texture(copied: &CopiedTexture) -> String {
+    let wire = CopiedV1 {
+        shagreen: KIND.to_owned(),
+        version: VERSION,
+        library: copied.library.clone(),
+        axes: copied.axes.clone(),
+        pinned: copied.pinned.clone(),
+        texture: authored(&copied.texture),
+    };
+    // JSON is UTF-8, so nothing is lost.
+    String::from_utf8_lossy(&layout::to_bytes(&wire, OPEN_DEPTH)).into_owned()
+}
+
+/// Reads a copied texture; every value is checked.
+///
+/// # Errors
+/// See [`CopiedTextureError`]; any text that Shagreen did not write is [`CopiedTextureError::Foreign`].
+pub fn read_copied_texture(text: &str) -> Result<CopiedTexture, CopiedTextureError> {
+    // Every copied texture begins with a brace and states its kind. Other text is not parsed.
+    if !text.trim_start().starts_with('{') || !text.contains(KIND) {
+        return Err(CopiedTextureError::Foreign);
+    }
+    if text.len() > MAX_BYTES {
+        return Err(CopiedTextureError::TooLarge { n_bytes: text.len() });
+    }
+    if let Err(HeaderFault::TooDense(reason)) = check_density(text.as_bytes()) {
+        return Err(CopiedTextureError::Damaged { reason });
+    }
+    let damaged =
+        |error: serde_json::Error| CopiedTextureError::Damaged { reason: plain(&error.to_string()) };
+    let mark: Mark = serde_json::from_str(text).map_err(damaged)?;
+    if mark.shagreen != KIND {
+        return Err(CopiedTextureError::Foreign);
+    }
+    if mark.version != VERSION {
+        let found = mark.version.to_string().chars().take(20).collect();
+        return Err(CopiedTextureError::Version { found });
+    }
+    checked(serde_json::from_str(text).map_err(damaged)?)
+        .map_err(|source| CopiedTextureError::Invalid { source })
+}
+
+fn checked(wire: CopiedV1) -> Result<CopiedTexture, ProjectError> {
+    let texture = &wire.texture;
+    text_limits::check("the name of the library", &wire.library, MAX_NAME)?;
+    text_limits::check("the name of an authored texture", &texture.name, MAX_NAME)?;
+    text_limits::check("the notes of an authored texture", &texture.notes, MAX_NOTES)?;
+    for tag in &texture.tags {
+        text_limits::check("a tag of an authored texture", tag, MAX_NAME)?;
+    }
+    for word in wire.axes.iter().flatten() {
+        text_limits::check("the name of an axis", word, MAX_NAME)?;
+    }
+    for id in wire.pinned.keys().chain(&texture.blend.locked) {
+        text_limits::check("the identifier of a pinned texture", id, MAX_ID)?;
+    }
+    for name in wire.pinned.values() {
+        text_limits::check("the name of a pinned texture", name, MAX_NAME)?;
+    }
+    Ok(CopiedTexture {
+        texture: authored_texture(wire.texture)?,
+        library: wire.library,
+        axes: wire.axes,
+        pinned: wire.pinned,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::{BTreeMap, BTreeSet};
+
+    use serde_json::{Value, json};
+    use shagreen_core::space::SpacePoint;
+    use shagreen_core::texture::blend::Mode;
+
+    use super::{CopiedTexture, CopiedTextureError, MAX_BYTES, read_copied_texture, write_copied_texture};
+    use crate::project::{AuthoredTexture, BlendChoice};
+
+    fn copied() -> CopiedTexture {
+        let locked = BTreeSet::from(["oak".to_owned()]);
+        CopiedTexture {
+            texture: AuthoredTexture {
+                color: 3,
+                notes: "line one\n\"line two\"".to_owned(),
+                tags: vec!["wood".to_owned()],
+                at: SpacePoint { rough_smooth: 100.0 / 3.0, hard_soft: 0.1 },
+                blend: BlendChoice { mode: Mode::Field, locked, ..BlendChoice::default() },
+                ..AuthoredTexture::new(7, "Eiche, geölt")
+            },
+            library: "Starter library".to_owned(),
+            axes: [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned)),
+            pinned: BTreeMap::from([("oak".to_owned(), "Oak".to_owned())]),
+        }
+    }
+
+    /// Reads the text of [`copied`] after a change.
+    fn changed(change: impl FnOnce(&mut Value)) -> Result<CopiedTexture, CopiedTextureError> {
+        let mut value: Value = serde_json::from_str(&write_copied_texture(&copied())).unwrap();
+        change(&mut value);
+        read_copied_texture(&value.to_string())
+    }
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        let text = write_copied_texture(&copied());
+        assert!(text.starts_with("{\n \"shagreen\": \"authored texture\",\n \"version\": 1,"), "{text}");
+        assert_eq!(read_copied_texture(&text).unwrap(), copied());
+        assert_eq!(changed(|_| {}).unwrap(), copied(), "whatever the layout");
+    }
+
+    #[test]
+    fn other_text_is_foreign() {
+        let long = "{".repeat(MAX_BYTES + 1);
+        for text in ["", "Oak", "authored texture", "{}", "[1, 2]", r#"{"shagreen": "other"}"#, &long] {
+            let error = read_copied_texture(text).unwrap_err();
+            assert!(matches!(error, CopiedTextureError::Foreign), "{error}");
+        }
+        let named = changed(|value| value["shagreen"] = json!("a project")).unwrap_err();
+        assert!(matches!(named, CopiedTextureError::Foreign), "{named}");
+        let noted = r#"{"format": "shagreen-project", "notes": "an authored texture"}"#;
+        let error = read_copied_texture(noted).unwrap_err();
+        assert!(matches!(error, CopiedTextureError::Foreign), "{error}");
+    }
+
+    #[test]
+    fn damage_is_refused() {
+        let text = write_copied_texture(&copied());
+        let half = text.chars().take(text.len() / 2).collect();
+        for (text, part) in [
+            (half, "damaged"),
+            (format!("{text}{}", " ".repeat(MAX_BYTES)), "bytes"),
+            (text.replace("\"version\": 1", "\"version\": 2"), "version 2"),
+            (text.replace("\"version\": 1", "\"more\": 1"), "version null"),
+            (text.replace("\"library\"", "\"librarie\""), "librarie"),
+        ] {
+            let error = read_copied_texture(&text).unwrap_err().to_string();
+            assert!(error.contains(part), "{error}");
+        }
+        for (change, part) in [
+            (json!({"rough_smooth": 101.0}), "position"),
+            (json!({"color": 8}), "color"),
+            (json!({"name": "a".repeat(5000)}), "characters"),
+            (json!({"tags": ["a".repeat(5000)]}), "characters"),
+        ] {
+            let outcome = changed(|value| {
+                for (field, new) in change.as_object().unwrap() {
+                    value["texture"][field] = new.clone();
+                }
+            });
+            let error = outcome.unwrap_err();
+            let is_invalid = matches!(error, CopiedTextureError::Invalid { .. });
+            assert!(is_invalid && error.to_string().contains(part), "{error}");
+        }
+    }
+}
