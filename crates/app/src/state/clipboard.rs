@@ -14,7 +14,7 @@ const BESIDE: f64 = 4.0;
 /// Distance below which two authored textures hide each other on the canvas, in axis units.
 const SAME_PLACE: f64 = 1e-6;
 
-/// Position of a copy of a texture at `at`, offset by [`BESIDE`] and inside the space.
+/// Position of a copy of a texture at `at`, offset by some points and inside the space.
 pub fn beside(at: SpacePoint) -> SpacePoint {
     // Added to each coordinate, or subtracted if the sum would exceed 100.
     let step = |x: f64| if x + BESIDE <= 100.0 { x + BESIDE } else { x - BESIDE };

@@ -451,7 +451,8 @@ fn a_landing_sounds_from_the_first_sample_of_the_next_block() {
 fn a_tap_beyond_the_output_is_reduced_before_the_limiter() {
     let (mut handle, mut engine, mut live) = tapping();
     handle.set_tap(Tap { amplitude_mps2: 700.0, ..WOOD });
-    play(&mut engine, 480, 480);
+    // The output has faded in.
+    play(&mut engine, 4800, 480);
     live.send(landed(0.5), Instant::now()).unwrap();
     let reduced = peak(&play(&mut engine, 4800, 480));
     let linear = CONFIG.drive.linear_mps2() / CONFIG.drive.full_scale_mps2();
