@@ -36,6 +36,7 @@ use shagreen_formats::project::{AuthoredTexture, Project};
 use shagreen_studio::models::ModelFolder;
 
 use crate::author::canvas::point_id;
+use crate::author::context_menu::note_open_menu;
 use crate::author::prompt::Prompts;
 use crate::build::page::BuildPage;
 use crate::command::{Command, FileCommand, pressed};
@@ -219,6 +220,7 @@ impl Window {
     pub fn frame_ui(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         let t = tokens(&ctx);
+        note_open_menu(&ctx);
         // Workers start after the first frame, which would otherwise be delayed.
         if self.has_been_shown {
             self.session.begin_work(&ctx);

@@ -379,9 +379,9 @@ impl Engine {
             if ahead < rest.len() {
                 let (before, after) = rest.split_at_mut(ahead);
                 self.taps.add_to(before);
-                // A gain of zero permits any amplitude and silences it.
-                let range_mps2 = self.tap_range_mps2 / self.gain.target();
-                self.taps.strike(self.tap.within(range_mps2), landing.strength);
+                // The gain is highest at one end of its ramp. A gain of zero permits any amplitude and silences it.
+                let gain = self.gain.value().max(self.gain.target());
+                self.taps.strike(self.tap.within(self.tap_range_mps2 / gain), landing.strength);
                 self.landing = None;
                 self.player.note_contact(landing.stream_secs, landing.stream_secs);
                 rest = after;

@@ -1,6 +1,7 @@
 //! Third-party networks on this machine: the user's files, which the program uses and checks, but never redistributes.
 
 use std::collections::BTreeMap;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, anyhow, ensure};
@@ -88,9 +89,10 @@ impl ModelFolder {
     /// # Errors
     /// The folder is not that of a model, or a file cannot be read.
     pub fn add_diffusion(&self, from: &Path) -> anyhow::Result<AddedDiffusion> {
-        let from = from
-            .canonicalize()
-            .map_err(|_| anyhow!("there is no such folder; check its name: {}", from.display()))?;
+        let from = from.canonicalize().map_err(|error| match error.kind() {
+            io::ErrorKind::NotFound => anyhow!("there is no such folder; check its name: {}", from.display()),
+            _ => anyhow!("the folder cannot be read: {}: {}", reason_of(&error), from.display()),
+        })?;
         let (files, sha256) = read_parts(&from)?;
         Diffusion::new(files).with_context(|| format!("this model cannot be used: {}", from.display()))?;
         let added = AddedDiffusion { format: ADDED.to_owned(), folder: from, sha256 };

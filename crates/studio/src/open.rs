@@ -79,7 +79,11 @@ pub fn open(path: &Path, permitted: &Permitted) -> anyhow::Result<Opened> {
     let outside = Cell::new(None);
     let read = |library: &Path| {
         if !permitted.covers(library, &folder) {
-            outside.set(Some(without_dots(library)));
+            let named = without_dots(library);
+            // A link in the folder of the project: what it leads to lies outside.
+            let is_named_inside = named.starts_with(without_dots(&folder));
+            let real = if is_named_inside { library.canonicalize().ok() } else { None };
+            outside.set(Some(real.unwrap_or(named)));
             if matches!(permitted, Permitted::Only(_)) {
                 return Err(ErrorKind::PermissionDenied.into());
             }
@@ -246,6 +250,18 @@ mod tests {
         let warned = opened(&Permitted::AllWarned(Vec::new())).unwrap();
         assert!(warned.warnings[0].contains("outside the folder of the project"), "{:?}", warned.warnings);
         assert!(opened(&Permitted::All).unwrap().warnings.is_empty());
+        // A link beside the project: the refusal names what it leads to, which can then be permitted.
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(root.join("elsewhere/mine.json"), root.join("near/link.json"))
+                .unwrap();
+            name_library("link.json");
+            let refused = opened(&only(&[])).unwrap_err();
+            let refused = refused.downcast_ref::<OutsideLibrary>().expect("it is outside");
+            assert_eq!(refused.library, root.join("elsewhere/mine.json"));
+            assert!(opened(&only(&["elsewhere/mine.json"])).is_ok());
+            name_library("../elsewhere/mine.json");
+        }
         // Another library in its place.
         let chosen = open_on(&project, Some(&root.join("near/mine.json"))).unwrap();
         let ProjectLibrary::File(file) = &chosen.project.library else { panic!("a file") };

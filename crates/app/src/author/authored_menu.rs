@@ -58,7 +58,8 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture) -> Opti
             asked = menu_entry(ui, &compare::compare_as(side.letter()), "", assign).or(asked.take());
         });
     }
-    if is_selected {
+    // The export sheet writes what is audible.
+    if is_selected && panel.solo().is_none() && panel.compare.heard().is_none() {
         ui.separator();
         let to_export = Command::File(FileCommand::Export(WAV.id));
         asked = menu_entry(ui, export::EXPORT, export::EXPORT_HELP, to_export).or(asked);

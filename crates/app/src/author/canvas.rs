@@ -12,8 +12,8 @@ mod tool_bar;
 mod view;
 
 use egui::{
-    Align2, FontId, PointerButton, Popup, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2,
-    WidgetInfo, pos2, vec2,
+    Align2, FontId, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo,
+    pos2, vec2,
 };
 use shagreen_core::space::authoring::Weights;
 use shagreen_core::space::{LabelSource, SpacePoint};
@@ -30,6 +30,7 @@ use self::sites_ui::sites_ui;
 use self::status_line::foot_ui;
 use self::tool_bar::tool_bar;
 use self::view::follow_view;
+use crate::author::context_menu::had_open_menu;
 use crate::author::prompt::PositionEstimate;
 use crate::command::Command;
 use crate::look::axes::{Axes, View};
@@ -115,7 +116,7 @@ pub fn canvas_ui(
         ellipse_ui(ui, axes, guess, t);
     }
     // A click beside an open menu only closes it.
-    let is_click = background.clicked() && !Popup::is_any_open(ui.ctx());
+    let is_click = background.clicked() && !had_open_menu(ui.ctx());
     let clicked_at = background.interact_pointer_pos().filter(|_| is_click);
     if tool.is_on {
         commands.extend(tool.follow(ui, axes, panel, &background));

@@ -1,6 +1,6 @@
 //! Context menus: opened by a right click or, on the focused widget, by the menu key or Shift+F10.
 
-use egui::{Button, Key, Modifiers, Popup, Rect, Response, SetOpenCommand, Ui, vec2};
+use egui::{Button, Context, Id, Key, Modifiers, Popup, Rect, Response, SetOpenCommand, Ui, vec2};
 
 use crate::command::Command;
 
@@ -52,4 +52,19 @@ pub(crate) fn menu_entry(ui: &mut Ui, name: &str, help: &str, command: Command) 
 pub(crate) fn listed_entry(ui: &mut Ui, command: Command) -> Option<Command> {
     let name = command.entry()?.label;
     menu_entry(ui, name, "", command)
+}
+
+fn open_menu_id() -> Id {
+    Id::unique("menu open at the begin of the frame")
+}
+
+/// Remembers whether a menu is open. Called before anything is drawn: a click beside a menu closes it while it is drawn.
+pub(crate) fn note_open_menu(ctx: &Context) {
+    let is_open = Popup::is_any_open(ctx);
+    ctx.data_mut(|data| data.insert_temp(open_menu_id(), is_open));
+}
+
+/// Whether a menu was open when the frame began. A click beside it only closes it.
+pub(crate) fn had_open_menu(ctx: &Context) -> bool {
+    ctx.data(|data| data.get_temp(open_menu_id())).unwrap_or(false)
 }

@@ -3,7 +3,7 @@
 use egui::text_selection::LabelSelectionState;
 use egui::{Context, Event};
 
-/// Command about the clipboard. Authored textures are given by their keys; `None` is the selected one.
+/// Command about the clipboard. Authored textures are given by their keys; `None` is the one that is shown.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ClipboardCommand {
     /// Copies an authored texture.
@@ -17,14 +17,15 @@ pub enum ClipboardCommand {
 }
 
 /// Clipboard commands of this frame. The window system reports the shortcuts as events. While a text field has the
-/// keyboard focus or text is selected, they apply to that text.
+/// keyboard focus, they apply to its text. Selected text of a label is copied instead of a texture.
 pub(super) fn pressed(ctx: &Context) -> Vec<ClipboardCommand> {
-    if ctx.text_edit_focused() || has_selected_text(ctx) {
+    if ctx.text_edit_focused() {
         return Vec::new();
     }
+    let is_text_selected = has_selected_text(ctx);
     let command = |event: &Event| match event {
-        Event::Copy => Some(ClipboardCommand::Copy(None)),
-        Event::Cut => Some(ClipboardCommand::Cut(None)),
+        Event::Copy if !is_text_selected => Some(ClipboardCommand::Copy(None)),
+        Event::Cut if !is_text_selected => Some(ClipboardCommand::Cut(None)),
         Event::Paste(text) => Some(ClipboardCommand::Read(text.clone())),
         _ => None,
     };

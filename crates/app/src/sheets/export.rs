@@ -240,7 +240,7 @@ impl ExportSheet {
     fn message(&self, t: &Tokens) -> (String, Color32) {
         match &self.state {
             State::Asking => (self.to_save(), t.text_weak),
-            State::Exists(n) => (strings::exists(*n), t.warning),
+            State::Exists(n) => (strings::exists(*n, self.is_all), t.warning),
             State::Saving(..) => (import::SAVING.to_owned(), t.text_weak),
             State::Saved(paths) => {
                 let shown = |path: Option<&Path>| path.unwrap_or(Path::new("")).display().to_string();

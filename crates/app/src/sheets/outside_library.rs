@@ -48,7 +48,7 @@ impl OutsideLibrarySheet {
             self.content_ui(ui, is_opening)
         });
         let mut commands = shown.inner;
-        if is_left(ctx) {
+        if !is_opening && is_left(ctx) {
             commands.push(Command::CloseSheet);
         }
         commands

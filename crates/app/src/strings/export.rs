@@ -38,12 +38,18 @@ pub fn all_to_save(n: usize, format: &str) -> String {
     format!("Saves {n} files as {format}.")
 }
 
-/// Question before files of the same format are replaced.
-pub fn exists(n: usize) -> String {
-    if n == 1 {
-        "A file of this format exists at this path. Replace it, or choose another path.".to_owned()
-    } else {
-        format!("{n} files of this format exist in this folder. Replace them, or choose another folder.")
+/// Question before files of the same format are replaced: the one at the path, or `n` in its folder.
+pub fn exists(n: usize, is_all: bool) -> String {
+    match (n, is_all) {
+        (_, false) => {
+            "A file of this format exists at this path. Replace it, or choose another path.".to_owned()
+        }
+        (1, true) => {
+            "One of the files exists in this folder. Replace it, or choose another folder.".to_owned()
+        }
+        (n, true) => {
+            format!("{n} files of this format exist in this folder. Replace them, or choose another folder.")
+        }
     }
 }
 

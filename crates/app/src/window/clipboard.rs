@@ -12,9 +12,14 @@ use crate::panel::Panel;
 use crate::state::clipboard::{copied, pasted};
 use crate::state::edit::Edit;
 use crate::strings::clipboard as strings;
+use crate::workspace::Workspace;
 
 impl Window {
     pub(super) fn carry_out_clipboard(&mut self, command: ClipboardCommand, ctx: &Context) {
+        // What is copied, deleted or added must be visible.
+        if self.pages.workspace != Workspace::Author {
+            self.carry_out(Command::Show(Workspace::Author), ctx);
+        }
         match command {
             ClipboardCommand::Copy(key) => {
                 if let Some((_, name)) = self.copy_authored(key, ctx) {
@@ -37,9 +42,11 @@ impl Window {
         }
     }
 
-    /// Copies an authored texture, by its key, or the selected one. Returns its key and name.
+    /// Copies an authored texture, by its key, or the one that is shown. Returns its key and name.
     fn copy_authored(&self, key: Option<u32>, ctx: &Context) -> Option<(u32, String)> {
-        let key = key.unwrap_or(self.project.texture().key);
+        // During a comparison, the texture that the inspector shows.
+        let shown = self.compare.heard_key().filter(|_| !self.compare.is_hidden());
+        let key = key.or(shown).unwrap_or(self.project.texture().key);
         let texture = self.project.authored.iter().find(|texture| texture.key == key)?;
         let copied = copied(texture, self.session.library(), self.session.poles());
         ctx.copy_text(write_copied_texture(&copied));

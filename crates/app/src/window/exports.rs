@@ -18,10 +18,16 @@ impl Window {
         let signal = self.session.signal(&self.project, compared.as_deref(), contact);
         let entry = self.session.texture_entry(&self.project, compared.as_deref());
         let problem = if format == WAV { signal.as_ref().err() } else { entry.as_ref().err() };
-        if let Some(reason) = problem {
-            self.session.say(reason.clone());
-            return;
-        }
+        // Without a signal, the other formats may still be possible.
+        let other = listed().find(|listed| *listed != WAV).filter(|_| format == WAV && entry.is_ok());
+        let format = match (problem, other) {
+            (None, _) => format,
+            (Some(_), Some(other)) => other,
+            (Some(reason), None) => {
+                self.session.say(reason.clone());
+                return;
+            }
+        };
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         let name = panel.heard_name();
         let id = id_from_name(&name);

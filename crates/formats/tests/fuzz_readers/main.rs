@@ -40,7 +40,7 @@ const SEED: u64 = 3;
 /// Time for all readers together in a test, in s.
 const SECS: f64 = 10.0;
 /// Maximum time of a reader for one input.
-const LONGEST: Duration = Duration::from_secs(5);
+const LONGEST: Duration = Duration::from_secs(10);
 /// Time after which a reader counts as an endless loop.
 const NEVER: Duration = Duration::from_secs(30);
 /// Permitted memory of a reader, in bytes per byte of its input.

@@ -1,13 +1,14 @@
 //! Tool that draws a path through the space, with the path, its points and its controls.
 
 use egui::{
-    Align2, Button, ComboBox, CursorIcon, DragValue, FontId, Key, Popup, Pos2, Rect, Response, Role, Sense,
-    Shape, Stroke, Ui, WidgetInfo, vec2,
+    Align2, Button, ComboBox, CursorIcon, DragValue, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape,
+    Stroke, Ui, WidgetInfo, vec2,
 };
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::texture_path::{Along, AtEnd, MAX_KEYS};
 use shagreen_core::space::texture_path::{LEAST_STEP, UserPath};
 
+use crate::author::context_menu::had_open_menu;
 use crate::command::Command;
 use crate::look::axes::Axes;
 use crate::look::drag::dragged_to;
@@ -56,7 +57,7 @@ impl PathTool {
         }
         // A click beside an open menu only closes it.
         if background.clicked()
-            && !Popup::is_any_open(ui.ctx())
+            && !had_open_menu(ui.ctx())
             && let Some(pos) = background.interact_pointer_pos()
         {
             return added(panel, axes.space_from_ui(pos));

@@ -7,7 +7,7 @@ use shagreen_core::space::SpacePoint;
 use super::path_tool::{PathTool, added};
 use super::site_labels::{Around, site_labels};
 use super::{POINT_SIZE, SITE_RADIUS, site_radius};
-use crate::author::context_menu::context_menu;
+use crate::author::context_menu::{context_menu, had_open_menu};
 use crate::author::exact::taken;
 use crate::author::locks::lock_mark;
 use crate::author::texture_menu::texture_menu;
@@ -48,7 +48,7 @@ pub(super) fn sites_ui(
         let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
         let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::go_to(&entry.name)));
-        if response.clicked() {
+        if response.clicked() && !had_open_menu(ui.ctx()) {
             let chosen = || taken(panel, *texture).map(Command::Edit);
             commands.extend(if tool.is_on { added(panel, *at) } else { chosen() });
         }
