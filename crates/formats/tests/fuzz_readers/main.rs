@@ -42,7 +42,7 @@ const SECS: f64 = 10.0;
 /// Maximum time of a reader for one input.
 const LONGEST: Duration = Duration::from_secs(10);
 /// Time after which a reader counts as an endless loop.
-const NEVER: Duration = Duration::from_secs(30);
+const NEVER: Duration = Duration::from_secs(90);
 /// Permitted memory of a reader, in bytes per byte of its input.
 const MEMORY_FACTOR: usize = 10;
 /// Permitted memory of a reader for any input, in bytes.
