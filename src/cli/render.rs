@@ -95,16 +95,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Printed.note("players clip what exceeds 1 m/s²; --normalize scales the signal for them");
     }
     let texture = chosen.texture.as_deref().and_then(|id| library.index_of(id));
-    let mut lost = lost_in_wav(Rendered {
+    let lost = lost_in_wav(Rendered {
         texture: texture.map(|index| &library.textures[index]),
-        has_tap: chosen.tap.is_some(),
+        tap: chosen.tap,
+        rate: Hertz(f64::from(rate_hz)),
         follows_stroke,
     });
-    if follows_stroke && chosen.tap.is_some_and(|tap| 2.0 * tap.frequency.0 >= f64::from(rate_hz)) {
-        lost.push(
-            "the tap transient: its frequency is above half the sample rate, choose a higher one".to_owned(),
-        );
-    }
     for lost in &lost {
         Printed.note(&format!("not stored in the file: {lost}"));
     }

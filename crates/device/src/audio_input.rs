@@ -19,7 +19,9 @@ use crate::error::{DeviceError, DeviceErrorKind};
 #[cfg(target_os = "linux")]
 use crate::pulse::PREFIX;
 #[cfg(target_os = "linux")]
-use crate::pulse::record::{PulseInput, find_monitor, list_monitors};
+use crate::pulse::record::{find_monitor, list_monitors};
+#[cfg(target_os = "linux")]
+use crate::pulse::stream::PulseStream;
 
 use self::sample_clock::{SampleClock, SampleTimes};
 
@@ -89,9 +91,14 @@ pub struct Recorder {
     opened: Instant,
     /// Times in seconds since `opened`.
     times: triple_buffer::Output<Option<SampleTimes>>,
-    _device: Option<cpal::Stream>,
+    _stream: Stream,
+}
+
+/// The stream of the system, which ends when it is dropped.
+enum Stream {
+    Device(#[expect(dead_code, reason = "kept until the recorder is dropped")] cpal::Stream),
     #[cfg(target_os = "linux")]
-    _monitor: Option<PulseInput>,
+    Monitor(#[expect(dead_code, reason = "kept until the recorder is dropped")] PulseStream),
 }
 
 impl std::fmt::Debug for Recorder {
@@ -141,18 +148,7 @@ impl Recorder {
             _ => build::<f32>(id, &device, intake),
         }?;
         stream.play().map_err(|error| explain(Way::In, id, "started", &error))?;
-        let Reader { samples, told, opened, times } = reader;
-        Ok(Self {
-            id: id.to_owned(),
-            rate_hz,
-            samples,
-            told,
-            opened,
-            times,
-            _device: Some(stream),
-            #[cfg(target_os = "linux")]
-            _monitor: None,
-        })
+        Ok(reader.with(id, rate_hz, Stream::Device(stream)))
     }
 
     /// Opens the monitor of an output at the rate of the output.
@@ -169,24 +165,14 @@ impl Recorder {
             buffer_size: cpal::BufferSize::Default,
         };
         let (mut intake, reader) = Reader::new(config, channel_idx);
-        let Reader { samples, told, opened, times } = reader;
         let samples_per_sec = f64::from(n_channels) * f64::from(rate_hz);
         // The last sample of a block is recorded when the block is sent.
         let take = move |block: &[f32]| {
             intake.take(block, Duration::from_secs_f64(block.len() as f64 / samples_per_sec.max(1.0)));
         };
-        let told_of_loss = Arc::clone(&told);
+        let told_of_loss = Arc::clone(&reader.told);
         let input = monitor.start(take, move || told_of_loss.is_lost.store(true, Ordering::Relaxed))?;
-        Ok(Self {
-            id: id.to_owned(),
-            rate_hz,
-            samples,
-            told,
-            opened,
-            times,
-            _device: None,
-            _monitor: Some(input),
-        })
+        Ok(reader.with(id, rate_hz, Stream::Monitor(input)))
     }
 
     /// Sample rate, in Hz.
@@ -260,6 +246,12 @@ impl Reader {
         let (times_in, times) = triple_buffer(&None);
         let intake = Intake::new(config, channel_idx, opened, producer, Arc::clone(&told), times_in);
         (intake, Self { samples, told, opened, times })
+    }
+
+    /// Returns the recorder of an open stream.
+    fn with(self, id: &str, rate_hz: u32, stream: Stream) -> Recorder {
+        let Self { samples, told, opened, times } = self;
+        Recorder { id: id.to_owned(), rate_hz, samples, told, opened, times, _stream: stream }
     }
 }
 

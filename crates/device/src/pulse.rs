@@ -8,23 +8,20 @@
 mod connection;
 mod playback;
 pub(crate) mod record;
+pub(crate) mod stream;
 
-use std::net::Shutdown;
-use std::os::unix::net::UnixStream;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread::JoinHandle;
 
 use pulseaudio::protocol::{Command, ServerInfo, SinkInfo, SinkInfoList};
 
 use self::connection::{Connection, unavailable};
 use self::playback::{Playback, StreamKind};
+use self::stream::PulseStream;
 use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::Shared;
 use crate::output_options::{Made, OpenOptions, OutputInfo, OutputKind, USUAL_BUFFER_FRAMES, make_engine};
-use crate::urgency::run_before_others;
 
 /// Prefix of the ids of these outputs; the rest is the sink's name.
 pub(crate) const PREFIX: &str = "pulse:";
@@ -48,28 +45,9 @@ pub(crate) fn list() -> Vec<OutputInfo> {
     sinks.into_iter().map(describe).collect()
 }
 
-/// An open stream; it ends when it is dropped.
-#[derive(Debug)]
-pub(crate) struct PulseOutput {
-    /// Set before the connection is closed: the end of the stream is then not a loss.
-    is_closing: Arc<AtomicBool>,
-    socket: UnixStream,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl Drop for PulseOutput {
-    fn drop(&mut self) {
-        self.is_closing.store(true, Ordering::Relaxed);
-        self.socket.shutdown(Shutdown::Both).ok(); // The server may have closed it already.
-        if let Some(thread) = self.thread.take() {
-            thread.join().ok(); // The panic of a callback has been printed already.
-        }
-    }
-}
-
 /// Result of opening an output.
 pub(crate) struct Opened {
-    pub(crate) output: PulseOutput,
+    pub(crate) output: PulseStream,
     pub(crate) rate_hz: u32,
     pub(crate) channels: u16,
     pub(crate) buffer_frames: u32,
@@ -117,19 +95,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let socket = connection.socket().map_err(refused)?;
     let playback = Playback::start(connection, kind, edge, reporter, id).map_err(refused)?;
     let block_frames = playback.block_frames();
-    let is_closing = Arc::new(AtomicBool::new(false));
-    let closing = Arc::clone(&is_closing);
-    let thread = std::thread::Builder::new().name("sound server".into()).spawn(move || {
-        run_before_others();
-        playback.run(&closing);
-    });
-    let thread = thread.map_err(|error| {
-        DeviceError::new(
-            DeviceErrorKind::Backend,
-            format!("the system cannot start a thread for the output: {error}"),
-        )
-    })?;
-    let output = PulseOutput { is_closing, socket, thread: Some(thread) };
+    let output = PulseStream::start(socket, "output", move |closing| playback.run(closing))?;
     let channels = u16::from(sink.sample_spec.channels);
     let opened =
         Opened { output, rate_hz, channels, buffer_frames: block_frames, engine_latency_secs, shared };

@@ -5,7 +5,7 @@ use egui::epaint::TextShape;
 use egui::{Rect, Shape};
 use egui_kittest::Harness;
 
-/// Shape of a frame, with the part of the window in which it is visible.
+/// A shape of a frame, and its visible part.
 pub(crate) struct Painted {
     pub(crate) shape: Shape,
     pub(crate) clip: Rect,

@@ -6,11 +6,11 @@ use std::time::{Duration, Instant, SystemTime};
 use pulseaudio::protocol::stream::{BufferAttr, StreamFlags};
 use pulseaudio::protocol::{
     ChannelMap, ChannelVolume, Command, CorkStreamParams, CreatePlaybackStreamReply, LatencyParams,
-    MAX_MEMBLOCKQ_LENGTH, PlaybackLatency, PlaybackStreamParams, Prop, Props, ProtocolError, SampleFormat,
-    SampleSpec,
+    MAX_MEMBLOCKQ_LENGTH, PlaybackLatency, PlaybackStreamParams, Prop, Props, ProtocolError,
 };
 
 use super::connection::{Connection, Failure, Message};
+use super::stream::{sample_spec, stream_flags};
 use crate::edge::Edge;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::Reporter;
@@ -71,11 +71,7 @@ impl Playback {
         let mut props = Props::new();
         props.set(Prop::MediaName, c"Actuator drive");
         let params = PlaybackStreamParams {
-            sample_spec: SampleSpec {
-                format: SampleFormat::Float32Le,
-                channels: kind.channels,
-                sample_rate: kind.rate_hz,
-            },
+            sample_spec: sample_spec(kind.channels, kind.rate_hz),
             channel_map: kind.channel_map,
             sink_index: Some(kind.sink),
             buffer_attr: BufferAttr {
@@ -87,16 +83,7 @@ impl Playback {
             },
             cvolume: Some(ChannelVolume::norm(kind.channels)),
             props,
-            flags: StreamFlags {
-                start_corked: true,
-                no_remap_channels: true,
-                no_remix_channels: true,
-                no_move: true,
-                start_muted: Some(false),
-                adjust_latency: true,
-                fail_on_suspend: true,
-                ..StreamFlags::default()
-            },
+            flags: StreamFlags { fail_on_suspend: true, ..stream_flags() },
             ..PlaybackStreamParams::default()
         };
         let reply: CreatePlaybackStreamReply = connection.ask(&Command::CreatePlaybackStream(params))?;

@@ -1,21 +1,17 @@
 //! Recording of the monitor of a sink: the samples that the server sends to the sink, without the delay of its hardware.
 
-use std::net::Shutdown;
-use std::os::unix::net::UnixStream;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::thread::JoinHandle;
+use std::sync::atomic::Ordering;
 
-use pulseaudio::protocol::stream::{BufferAttr, StreamFlags};
+use pulseaudio::protocol::stream::BufferAttr;
 use pulseaudio::protocol::{
     ChannelMap, Command, CorkStreamParams, CreateRecordStreamReply, Prop, Props, RecordStreamParams,
-    SampleFormat, SampleSpec, SinkInfoList, SourceInfo, SourceInfoList,
+    SinkInfoList, SourceInfo, SourceInfoList,
 };
 
 use super::PREFIX;
 use super::connection::{Connection, Failure, unavailable};
+use super::stream::{PulseStream, sample_spec, stream_flags};
 use crate::error::{DeviceError, DeviceErrorKind};
-use crate::urgency::run_before_others;
 
 /// Samples that the server sends at a time, as a part of a second.
 const BLOCKS_PER_SEC: u32 = 200;
@@ -100,7 +96,7 @@ impl Monitor {
         self,
         take: impl FnMut(&[f32]) + Send + 'static,
         lose: impl FnOnce() + Send + 'static,
-    ) -> Result<PulseInput, DeviceError> {
+    ) -> Result<PulseStream, DeviceError> {
         let Self { mut connection, id, .. } = self;
         let refused = |failure: Failure| {
             let message = format!(
@@ -111,26 +107,14 @@ impl Monitor {
         let mut props = Props::new();
         props.set(Prop::MediaName, c"Measurement");
         let params = RecordStreamParams {
-            sample_spec: SampleSpec {
-                format: SampleFormat::Float32Le,
-                channels: self.channels,
-                sample_rate: self.rate_hz,
-            },
+            sample_spec: sample_spec(self.channels, self.rate_hz),
             channel_map: self.channel_map,
             source_index: Some(self.source_index),
             buffer_attr: BufferAttr {
                 fragment_size: (self.rate_hz / BLOCKS_PER_SEC).max(1) * 4 * u32::from(self.channels),
                 ..BufferAttr::default()
             },
-            flags: StreamFlags {
-                start_corked: true,
-                no_remap_channels: true,
-                no_remix_channels: true,
-                no_move: true,
-                start_muted: Some(false),
-                adjust_latency: true,
-                ..StreamFlags::default()
-            },
+            flags: stream_flags(),
             props,
             ..RecordStreamParams::default()
         };
@@ -140,21 +124,13 @@ impl Monitor {
         let socket = connection.socket().map_err(refused)?;
         let uncork = CorkStreamParams { channel: reply.channel, cork: false };
         connection.say(&Command::CorkRecordStream(uncork)).map_err(refused)?;
-        let is_closing = Arc::new(AtomicBool::new(false));
-        let closing = Arc::clone(&is_closing);
         let recording = Recording { connection, channel: reply.channel };
-        let thread = std::thread::Builder::new().name("sound server input".into()).spawn(move || {
-            run_before_others();
+        PulseStream::start(socket, "input", move |closing| {
             recording.run(take);
             if !closing.load(Ordering::Relaxed) {
                 lose();
             }
-        });
-        let thread = thread.map_err(|error| {
-            let message = format!("the system cannot start a thread for the input: {error}");
-            DeviceError::new(DeviceErrorKind::Backend, message)
-        })?;
-        Ok(PulseInput { is_closing, socket, thread: Some(thread) })
+        })
     }
 }
 
@@ -183,25 +159,6 @@ impl Recording {
             {
                 return;
             }
-        }
-    }
-}
-
-/// An open recording; it ends when it is dropped.
-#[derive(Debug)]
-pub(crate) struct PulseInput {
-    /// Set before the connection is closed: the end of the recording is then not a loss.
-    is_closing: Arc<AtomicBool>,
-    socket: UnixStream,
-    thread: Option<JoinHandle<()>>,
-}
-
-impl Drop for PulseInput {
-    fn drop(&mut self) {
-        self.is_closing.store(true, Ordering::Relaxed);
-        self.socket.shutdown(Shutdown::Both).ok(); // The server may have closed it already.
-        if let Some(thread) = self.thread.take() {
-            thread.join().ok(); // The panic of a callback has been printed already.
         }
     }
 }

@@ -1,5 +1,7 @@
 //! WAV: the signal of one stroke, rendered by `shagreen render` and by the export sheet.
 
+use shagreen_core::texture::tap::Tap;
+use shagreen_core::units::Hertz;
 use shagreen_formats::library::TextureEntry;
 
 use super::FormatInfo;
@@ -17,18 +19,25 @@ pub const WAV: FormatInfo = FormatInfo {
 pub struct Rendered<'a> {
     /// The texture; `None` if signals are mixed instead, so that there is no single texture.
     pub texture: Option<&'a TextureEntry>,
-    /// Whether the texture has a tap transient.
-    pub has_tap: bool,
+    /// Tap transient of the texture, if it has one.
+    pub tap: Option<Tap>,
+    /// Sample rate of the signal.
+    pub rate: Hertz,
     /// Whether the tip follows a recorded stroke, in which contacts begin.
     pub follows_stroke: bool,
 }
 
 /// Lists the properties of a texture that the WAV file of a stroke and its sidecar cannot store.
 pub fn lost_in_wav(rendered: Rendered<'_>) -> Vec<String> {
-    let Rendered { texture, has_tap, follows_stroke } = rendered;
+    let Rendered { texture, tap, rate, follows_stroke } = rendered;
     let mut lost = vec!["all tip speeds and normal forces except those of this stroke".to_owned()];
-    if has_tap && !follows_stroke {
-        lost.push("the tap transient: no contact begins in a steady motion".to_owned());
+    if let Some(tap) = tap {
+        if !follows_stroke {
+            lost.push("the tap transient: no contact begins in a steady motion".to_owned());
+        } else if 2.0 * tap.frequency.0 >= rate.0 {
+            let reason = "its frequency is above half the sample rate, choose a higher one";
+            lost.push(format!("the tap transient: {reason}"));
+        }
     }
     if texture.is_some_and(|texture| texture.model.friction().is_some()) {
         lost.push("the friction coefficient".to_owned());
@@ -41,20 +50,23 @@ pub fn lost_in_wav(rendered: Rendered<'_>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Rendered, lost_in_wav};
+    use super::{Rendered, Tap, lost_in_wav};
+    use shagreen_core::units::Hertz;
     use shagreen_formats::starter::starter_library;
 
     #[test]
     fn a_signal_loses_all_but_one_stroke() {
         let library = starter_library().unwrap();
         let texture = library.textures.iter().find(|texture| texture.picture.is_some()).unwrap();
-        let lost = |texture, has_tap, follows_stroke| {
-            lost_in_wav(Rendered { texture, has_tap, follows_stroke }).join("; ")
+        let lost = |texture, tap, follows_stroke, hz| {
+            lost_in_wav(Rendered { texture, tap, rate: Hertz(hz), follows_stroke }).join("; ")
         };
-        assert!(lost(None, false, false).starts_with("all tip speeds and normal forces"));
-        assert!(lost(None, true, false).contains("tap transient"));
-        assert!(!lost(None, true, true).contains("tap transient"), "a recorded stroke has contacts");
-        let of_texture = lost(Some(texture), false, false);
+        let tap = Some(Tap { frequency: Hertz(180.0), decay_per_sec: 90.0, amplitude_mps2: 6.0 });
+        assert!(lost(None, None, false, 1000.0).starts_with("all tip speeds and normal forces"));
+        assert!(lost(None, tap, false, 1000.0).contains("no contact begins"));
+        assert!(!lost(None, tap, true, 1000.0).contains("tap transient"), "a recorded stroke has contacts");
+        assert!(lost(None, tap, true, 300.0).contains("above half the sample rate"));
+        let of_texture = lost(Some(texture), None, false, 1000.0);
         assert!(of_texture.contains("the picture"));
         assert_eq!(of_texture.contains("friction"), texture.model.friction().is_some());
     }

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use shagreen_core::units::Hertz;
 use shagreen_formats::atomic;
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::library::{Provenance, TextureEntry, free_id, id_from_name};
@@ -62,7 +63,8 @@ pub(super) struct Summary {
 
 impl Job {
     /// Writes the files. Existing files are replaced only with `replaces`, and only by files of the same format. Nothing
-    /// is written before all paths are checked and all textures are computed.
+    /// is written before all paths are checked and all texture models are computed; signals are rendered and written one
+    /// after the other.
     pub(super) fn run(&self, replaces: bool) -> Outcome {
         let paths = self.paths();
         match self.n_replaced(&paths) {
@@ -90,7 +92,8 @@ impl Job {
                 };
                 for signal in self.signals()? {
                     let follows_stroke = options.follows_stroke && signal.stroke.is_some();
-                    let rendered = Rendered { texture, has_tap: signal.tap.is_some(), follows_stroke };
+                    let rate = Hertz(f64::from(options.rate_hz));
+                    let rendered = Rendered { texture, tap: signal.tap, rate, follows_stroke };
                     add(&mut summary.lost, lost_in_wav(rendered));
                     add(&mut summary.restricted, signal.restricted);
                 }

@@ -45,7 +45,7 @@ pub(super) struct Fault {
     pub(super) text: String,
     /// Area of the letters or of the control.
     pub(super) area: Rect,
-    /// Area in which it is visible.
+    /// Visible area.
     pub(super) clip: Rect,
 }
 

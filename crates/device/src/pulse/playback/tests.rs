@@ -13,6 +13,7 @@ use crate::edge::Edge;
 use crate::engine::Handle;
 use crate::output::tests::OPTIONS;
 use crate::output_options::{Made, make_engine};
+use crate::pulse::stream::PulseStream;
 use crate::status::LinkState;
 
 /// An open stream, the server's end of its connection, and the handle.
@@ -69,15 +70,13 @@ fn what_the_server_says_is_told_and_closing_is_no_loss() {
 fn a_line_that_is_hung_up_on_purpose_ends_without_a_loss() {
     let (playback, mut server, mut handle) = opened();
     let socket = playback.connection.socket().unwrap();
-    let is_closing = Arc::new(AtomicBool::new(false));
-    let closing = Arc::clone(&is_closing);
-    let thread = std::thread::spawn(move || playback.run(&closing));
+    let stream = PulseStream::start(socket, "output", move |closing| playback.run(closing)).unwrap();
     // After the latency request, the samples and the start command, the stream runs.
     for _ in 0..3 {
         let descriptor = read_descriptor(&mut server).unwrap();
         std::io::copy(&mut std::io::Read::take(&mut server, descriptor.length.into()), &mut std::io::sink())
             .unwrap();
     }
-    drop(crate::pulse::PulseOutput { is_closing, socket, thread: Some(thread) });
+    drop(stream);
     assert_eq!((handle.status().state, handle.loss()), (LinkState::Running, None));
 }
