@@ -6,6 +6,7 @@ pub mod axes;
 pub(crate) mod chart_ui;
 pub(crate) mod drag;
 pub mod icon;
+pub(crate) mod icons;
 pub(crate) mod label_places;
 pub(crate) mod map_plot;
 pub(crate) mod motion;

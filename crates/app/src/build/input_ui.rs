@@ -6,6 +6,7 @@ use egui::{Align, Button, Key, Label, Layout, RichText, TextEdit, Ui};
 
 use crate::browse::{Asked as Dialog, Browse};
 use crate::build::judgments::{Judgments, Slot};
+use crate::look::icons::close_button;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::session::Session;
 use crate::state::source::paths_in;
@@ -101,7 +102,7 @@ fn table_ui(ui: &mut Ui, kind: JudgmentKind, path: &mut PathField, said: &Said) 
             return;
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let cross = Button::new(RichText::new("×").color(t.text_weak)).frame(false);
+            let cross = close_button(ui.ctx());
             let name = strings::remove(title);
             asked.clear = ui.add(cross).accessible_name(&name).on_hover_text(&name).clicked();
             let name = Label::new(RichText::new(&said.name).small().color(t.text_weak)).truncate();

@@ -12,6 +12,7 @@ use crate::choices::signals::FromA;
 use crate::choices::signals::Slot;
 use crate::command::Command;
 use crate::command::signals::SignalsCommand;
+use crate::look::icons::{ICON_PLAY_ARROW, ICON_STOP, close_button, icon_button};
 use crate::look::theme::{RADIUS, tokens};
 use crate::state::source::paths_in;
 use crate::strings::signals as strings;
@@ -82,7 +83,7 @@ fn head_ui(ui: &mut Ui, slot: Slot, place: &Place, state: State, asked: &mut Ask
         ui.add(Label::new(letter).selectable(false));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if has_signal {
-                let cross = Button::new(RichText::new("×").color(t.text_weak)).frame(false);
+                let cross = close_button(ui.ctx());
                 let name = strings::remove(slot);
                 asked.is_cleared = ui.add(cross).accessible_name(&name).on_hover_text(name).clicked();
             }
@@ -92,12 +93,12 @@ fn head_ui(ui: &mut Ui, slot: Slot, place: &Place, state: State, asked: &mut Ask
                 let wanted = (!is_felt).then_some(slot);
                 asked.commands.push(Command::Signals(SignalsCommand::Feel(wanted)));
             }
-            let (word, name) = if is_playing {
-                (strings::STOP, strings::stop(slot))
+            let (icon, name) = if is_playing {
+                (ICON_STOP, strings::stop(slot))
             } else {
-                (strings::PLAY, strings::play(slot))
+                (ICON_PLAY_ARROW, strings::play(slot))
             };
-            let play = ui.add_enabled(has_signal, Button::new(word));
+            let play = ui.add_enabled(has_signal, icon_button(icon));
             let play = play.accessible_name(name);
             if play.on_hover_text(strings::PLAY_HELP).clicked() {
                 let play = Command::Signals(SignalsCommand::Play(slot));

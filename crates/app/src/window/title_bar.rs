@@ -4,6 +4,9 @@ use egui::{RichText, Ui, vec2};
 
 use super::Window;
 use crate::command::Command;
+use crate::look::icons::{
+    ICON_DARK_MODE, ICON_LIGHT_MODE, ICON_REDO, ICON_UNDO, ICON_VOLUME_OFF, ICON_VOLUME_UP, icon_button,
+};
 use crate::look::theme::tokens;
 use crate::strings;
 use crate::window::file_menu::{MenuState, file_menu, project_name_ui};
@@ -50,13 +53,13 @@ impl Window {
             }
             ui.add_space(10.0);
             let painting = self.painting_labels();
-            for (command, name, label) in [
-                (Command::Undo, strings::UNDO, painting[0].or(self.history.undo_label())),
-                (Command::Redo, strings::REDO, painting[1].or(self.history.redo_label())),
+            for (command, icon, name, label) in [
+                (Command::Undo, ICON_UNDO, strings::UNDO, painting[0].or(self.history.undo_label())),
+                (Command::Redo, ICON_REDO, strings::REDO, painting[1].or(self.history.redo_label())),
             ] {
                 let what = label.map_or(name.to_owned(), |l| strings::verb(name, l));
                 let keys = command.shortcut_text(ui.ctx());
-                let button = ui.add_enabled(label.is_some(), egui::Button::new(name));
+                let button = ui.add_enabled(label.is_some(), icon_button(icon)).accessible_name(name);
                 if button.on_hover_text(format!("{what} ({keys})")).clicked() {
                     commands.push(command);
                 }
@@ -86,9 +89,11 @@ impl Window {
     /// Draws the buttons for the output, the devices and the theme.
     fn device_buttons(&self, ui: &mut Ui) -> Vec<Command> {
         let mut commands = Vec::new();
-        let mute = if self.session.is_muted() { strings::UNMUTE } else { strings::MUTE };
-        let mute = ui.selectable_label(self.session.is_muted(), mute);
-        if mute.on_hover_text(strings::MUTE_HELP).clicked() {
+        let is_muted = self.session.is_muted();
+        let (icon, name) =
+            if is_muted { (ICON_VOLUME_OFF, strings::UNMUTE) } else { (ICON_VOLUME_UP, strings::MUTE) };
+        let mute = ui.add(icon_button(icon).selected(is_muted)).accessible_name(name);
+        if mute.on_hover_text(format!("{name}\n{}", strings::MUTE_HELP)).clicked() {
             commands.push(Command::ToggleMute);
         }
         let keys = Command::OpenDevices.shortcut_text(ui.ctx());
@@ -96,8 +101,12 @@ impl Window {
         if ui.button(strings::devices::OPEN).on_hover_text(help).clicked() {
             commands.push(Command::OpenDevices);
         }
-        let to = if ui.visuals().dark_mode { strings::TO_LIGHT } else { strings::TO_DARK };
-        if ui.button(to).clicked() {
+        let (icon, to) = if ui.visuals().dark_mode {
+            (ICON_LIGHT_MODE, strings::TO_LIGHT)
+        } else {
+            (ICON_DARK_MODE, strings::TO_DARK)
+        };
+        if ui.add(icon_button(icon)).accessible_name(to).on_hover_text(to).clicked() {
             commands.push(Command::ToggleTheme);
         }
         commands

@@ -3,7 +3,7 @@
 //! `UPDATE_SNAPSHOTS=1 cargo test -p shagreen-app --test window images` writes new references. Inspect them before
 //! committing.
 
-mod raster;
+pub(crate) mod raster;
 
 use std::path::Path;
 

@@ -12,7 +12,7 @@ use shagreen_app::choices::signals::Slot;
 use shagreen_studio::project::new_project;
 
 use self::texts::{Fault, Problem, faults};
-use crate::support::{Author, SILENT, author_at, begin, window};
+use crate::support::{Author, SILENT, author_at, begin, wait_for_field, window};
 use crate::views::{each_view, with_leftover};
 
 /// Pixels per point of usual screens.
@@ -88,6 +88,8 @@ fn faults_at(pixels: [f32; 2]) -> Vec<String> {
         each_view(&mut harness, folder.path(), &mut |harness, view, _| look(harness, view));
         drop(harness);
         let mut harness = author_at(with_leftover(folder.path()), size, scale);
+        // Until the field is there, the panels below the sheet still change.
+        wait_for_field(&mut harness);
         harness.run_steps(4);
         look(&mut harness, "sheet unsaved work");
     }

@@ -28,6 +28,7 @@ mod projects;
 mod prompts;
 mod rig;
 mod scope;
+mod screenshots;
 mod signals;
 mod strokes;
 mod textures;

@@ -72,7 +72,7 @@ pub(crate) fn drawn_by(renderer: impl TestRenderer + 'static, begin: Begin, size
     opened(Harness::builder().with_size(size).renderer(renderer), begin)
 }
 
-fn opened(builder: HarnessBuilder<Option<Window>>, begin: Begin) -> Author {
+pub(crate) fn opened(builder: HarnessBuilder<Option<Window>>, begin: Begin) -> Author {
     builder.build_ui_state(
         move |ui, window: &mut Option<Window>| {
             let window =

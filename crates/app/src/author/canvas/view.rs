@@ -1,9 +1,10 @@
 //! Zooming and panning of the canvas.
 
-use egui::{Button, PointerButton, Response, Ui};
+use egui::{PointerButton, Response, Ui};
 use shagreen_core::space::SpacePoint;
 
 use crate::look::axes::{Axes, View};
+use crate::look::icons::{ICON_FIT_SCREEN, ICON_ZOOM_IN, ICON_ZOOM_OUT, icon_button};
 use crate::panel::Panel;
 use crate::strings::view as strings;
 
@@ -36,11 +37,11 @@ pub(super) fn view_buttons(ui: &mut Ui, axes: Axes, panel: &Panel<'_>) -> Option
     let mut asked = None;
     let middle = axes.space_from_ui(axes.rect.center());
     let is_whole = axes.view == View::default();
-    for (sign, name, view, can) in [
-        ("−", strings::FARTHER, axes.view.zoomed(1.0 / STEP, middle), !is_whole),
-        ("+", strings::NEARER, axes.view.zoomed(STEP, middle), true),
+    for (icon, name, view, can) in [
+        (ICON_ZOOM_OUT, strings::FARTHER, axes.view.zoomed(1.0 / STEP, middle), !is_whole),
+        (ICON_ZOOM_IN, strings::NEARER, axes.view.zoomed(STEP, middle), true),
     ] {
-        let button = ui.add_enabled(can, Button::new(sign)).accessible_name(name);
+        let button = ui.add_enabled(can, icon_button(icon)).accessible_name(name);
         if button.on_hover_text(format!("{name}\n{}", strings::HELP)).clicked() {
             asked = Some(view);
         }
@@ -50,7 +51,8 @@ pub(super) fn view_buttons(ui: &mut Ui, axes: Axes, panel: &Panel<'_>) -> Option
     // If the view already fits all textures, the button shows the whole space instead.
     let (name, view) =
         if axes.view == fit && !is_whole { (strings::ALL, View::default()) } else { (strings::FIT, fit) };
-    if ui.button(name).on_hover_text(strings::HELP).clicked() {
+    let whole = ui.add(icon_button(ICON_FIT_SCREEN)).accessible_name(name);
+    if whole.on_hover_text(format!("{name}\n{}", strings::HELP)).clicked() {
         asked = Some(view);
     }
     asked

@@ -7,6 +7,7 @@ use egui::{
 use super::{Origin, PositionEstimate};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
+use crate::look::icons::close_button;
 use crate::look::theme::{GAP, RADIUS, tokens};
 use crate::panel::Panel;
 use crate::strings::prompt as words;
@@ -43,7 +44,7 @@ pub(crate) fn card_ui(
     let right = Rect::from_min_max(pos2(area.right() - 118.0, area.top()), area.max - vec2(6.0, 0.0));
     let mut buttons =
         ui.new_child(egui::UiBuilder::new().max_rect(right).layout(Layout::right_to_left(Align::Center)));
-    let close = Button::new(RichText::new("×").color(t.text_weak)).frame(false);
+    let close = close_button(buttons.ctx());
     if buttons.add(close).accessible_name(words::DISMISS).on_hover_text(words::DISMISS).clicked() {
         asked = Some(PromptCommand::Dismiss);
     }

@@ -2,6 +2,7 @@
 
 use egui::{Label, Rect, RichText, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 
+use crate::look::icons::close_button;
 use crate::look::theme::{RADIUS, Tokens, tokens};
 use crate::sheets::import::batch::{Batch, Content, State};
 use crate::strings::import as strings;
@@ -51,7 +52,7 @@ pub(super) fn files_ui(ui: &mut Ui, batch: &mut Batch, selected: &mut Option<u64
             let below = RichText::new(below).small().color(color_of(state, t));
             text.add(Label::new(below).truncate().selectable(false));
             let cross = Rect::from_center_size(area.right_center() - vec2(15.0, 0.0), vec2(20.0, 20.0));
-            let button = egui::Button::new(RichText::new("×").color(t.text_weak)).frame(false);
+            let button = close_button(ui.ctx());
             let name = strings::leave_out(&file.name);
             if ui.put(cross, button).accessible_name(&name).on_hover_text(&name).clicked() {
                 left_out = Some(file.id);

@@ -1,0 +1,66 @@
+//! Screenshots of every view at all supported sizes and scales in both themes, for people to look at.
+//!
+//! `SHAGREEN_SCREENSHOTS=DIR cargo test --workspace --test window screenshots` writes them; without the variable the test
+//! takes one view, to show that it still works.
+
+use std::path::{Path, PathBuf};
+
+use egui_kittest::Harness;
+use shagreen_app::command::Command;
+use shagreen_studio::project::new_project;
+
+use crate::images::raster::Raster;
+use crate::support::{self, Author, begin, wait, wait_for_field, window};
+use crate::views::{carry_out, each_view};
+
+/// Size in pixels, and pixels per point. Smaller windows than 960 by 600 points are not supported.
+const SIZES: [([f32; 2], f32); 7] = [
+    ([960.0, 600.0], 1.0),
+    ([1280.0, 720.0], 1.0),
+    ([1920.0, 1080.0], 1.0),
+    ([1920.0, 1080.0], 1.5),
+    ([2560.0, 1440.0], 1.0),
+    ([2560.0, 1440.0], 1.5),
+    ([2560.0, 1440.0], 2.0),
+];
+
+fn opened([width, height]: [f32; 2], scale: f32) -> Author {
+    let builder = Harness::builder().with_size([(width / scale).floor(), (height / scale).floor()]);
+    let builder = builder.with_pixels_per_point(scale).renderer(Raster::default());
+    let mut harness = support::opened(builder, begin(new_project()));
+    wait(&mut harness, "the output opens", |h| window(h).session().status().is_some());
+    wait_for_field(&mut harness);
+    harness
+}
+
+/// Writes what the window shows.
+fn shoot(harness: &mut Author, folder: &Path, view: &str) {
+    wait(harness, "the surface of the pad is made", |h| !window(h).pictures().is_busy());
+    harness.run_steps(4);
+    let name: String = view.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+    harness.render().unwrap().save(folder.join(format!("{name}.png"))).unwrap();
+}
+
+#[test]
+fn screenshots_of_all_views() {
+    let Some(folder) = std::env::var_os("SHAGREEN_SCREENSHOTS").map(PathBuf::from) else {
+        let folder = tempfile::tempdir().unwrap();
+        let mut harness = opened(SIZES[0].0, SIZES[0].1);
+        shoot(&mut harness, folder.path(), "Author");
+        assert_eq!(image::image_dimensions(folder.path().join("Author.png")).unwrap(), (960, 600));
+        return;
+    };
+    for (size, scale) in SIZES {
+        for is_light in [false, true] {
+            let theme = if is_light { "light" } else { "dark" };
+            let folder = folder.join(format!("{}x{}-{scale}-{theme}", size[0], size[1]));
+            std::fs::create_dir_all(&folder).unwrap();
+            let mut harness = opened(size, scale);
+            if is_light {
+                carry_out(&mut harness, Command::ToggleTheme);
+            }
+            let files = tempfile::tempdir().unwrap();
+            each_view(&mut harness, files.path(), &mut |harness, view, _| shoot(harness, &folder, view));
+        }
+    }
+}
