@@ -64,7 +64,7 @@ use crate::window::tour::Tour;
 use crate::workspace::Workspace;
 
 /// Interval between frames while the window is idle, so that the status bar stays current.
-const IDLE: std::time::Duration = std::time::Duration::from_secs(2);
+const IDLE: std::time::Duration = std::time::Duration::from_secs(4);
 
 /// Initial content of the window.
 #[derive(Clone, Debug)]
