@@ -91,5 +91,5 @@ fn changed(model: &TextureModel, random: &mut Random) -> TextureModel {
         ..node.clone()
     });
     let friction = model.friction().map(|friction| friction * (0.2 * random.normal()).exp());
-    TextureModel::new(model.rate(), nodes.collect(), friction).expect("no model").with_tap(model.tap())
+    TextureModel::new(model.rate(), nodes.collect(), friction).expect("no model").with_layers_of(model)
 }

@@ -17,24 +17,31 @@ mod measure;
 use std::hint::black_box;
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Instant;
 
-use measure::bench;
+use measure::{bench, bench_noted};
 use shagreen_core::dsp::ar::power_gain;
 use shagreen_core::dsp::lsf::ar_from_lsf;
 use shagreen_core::space::authoring::{Authoring, Layers, Models};
 use shagreen_core::space::{Space, SpacePoint};
 use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::height_map::{HeightMap, HeightMapOptions};
 use shagreen_core::texture::plane::{Plane, Prepared};
+use shagreen_core::texture::profile::Profile;
+use shagreen_core::texture::relief::Relief;
+use shagreen_core::texture::stick_slip::StickSlip;
 use shagreen_core::texture::{GrainNode, TextureModel};
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
 use shagreen_device::controls::Input;
-use shagreen_device::engine::{self, ChannelMask, EngineConfig};
+use shagreen_device::engine::{self, ChannelMask, Engine, EngineConfig, Handle};
 use shagreen_device::hand::{Hand, Path as HandPath};
 use shagreen_device::texture::OwnedTexture;
+use shagreen_device::touch::Touch;
 use shagreen_formats::library::Library;
 use shagreen_formats::starter::starter_library;
 use shagreen_synth::budget::Budget;
 use shagreen_synth::contact::{Contact, ContactSource, Place};
+use shagreen_synth::direction::Direction;
 use shagreen_synth::drive::{DriveConfig, Inverse};
 use shagreen_synth::equalizer::Resonance;
 use shagreen_synth::noise::{Gaussian, Noise};
@@ -142,8 +149,8 @@ fn main() {
     });
 
     let gaussian = Gaussian::new();
-    let mut many: Vec<(Voice, Noise, u16)> =
-        (0..10_000).map(|seed| (Voice::new(), Noise::new(seed), 0)).collect();
+    let mut many: Vec<(Voice, Noise, [u16; 2])> =
+        (0..10_000).map(|seed| (Voice::new(), Noise::new(seed), [0; 2])).collect();
     let texture = table.0[0].view();
     bench(
         "10,000 voices for one second of 1 kHz, coefficients every 5 ms",
@@ -151,8 +158,8 @@ fn main() {
         "sample",
         || {
             for i in 0..200 {
-                for (voice, noise, hint) in &mut many {
-                    let at = texture.evaluate(strokes.0[i * 5], hint);
+                for (voice, noise, hints) in &mut many {
+                    let at = texture.evaluate(strokes.0[i * 5], Direction::UNKNOWN, hints);
                     voice.aim(texture.order(), &at);
                     let e: [f32; 5] = std::array::from_fn(|_| gaussian.draw(noise));
                     voice.add_tick(&e, (1.0, 1.0), &mut tick[..5]);
@@ -163,7 +170,24 @@ fn main() {
     );
 
     callback(&library);
+    callback_with_layers(&library);
     reblending(&library, &planes);
+}
+
+/// An engine with an actuator, its equalizer and its limits, that plays one texture.
+fn playing(texture: &Prepared) -> (Handle, Engine) {
+    let (mut handle, engine) = engine::new(EngineConfig {
+        model_rate_hz: texture.parts().rate_hz,
+        device_rate_hz: 48_000.0,
+        seed: 1,
+        drive: MARK_II,
+        channels: ChannelMask::FIRST_TWO,
+        friction: None,
+    })
+    .expect("no engine");
+    let id = handle.load(OwnedTexture::new(texture.parts()).expect("invalid texture")).expect("no free slot");
+    handle.set_mix(Mix::solo(id)).expect("texture not loaded");
+    (handle, engine)
 }
 
 /// Cost of the audio callback: one field texture, an actuator with equalizer and thermal budget, and the limiter.
@@ -177,16 +201,7 @@ fn callback(library: &Library) {
     let point = SpacePoint { rough_smooth: 40.0, hard_soft: 60.0 };
     let authored = authoring.author(point, &Mode::Field.into()).expect("no texture");
     let texture = Plane::new(&authored.model.expect("no model")).prepare();
-    let (mut handle, mut engine) = engine::new(EngineConfig {
-        model_rate_hz: texture.parts().rate_hz,
-        device_rate_hz: 48_000.0,
-        seed: 1,
-        drive: MARK_II,
-        channels: ChannelMask::FIRST_TWO,
-    })
-    .expect("no engine");
-    let id = handle.load(OwnedTexture::new(texture.parts()).expect("invalid texture")).expect("no free slot");
-    handle.set_mix(Mix::solo(id)).expect("texture not loaded");
+    let (mut handle, mut engine) = playing(&texture);
     handle.set_input(Input::Hand(Hand {
         path: HandPath::Line,
         speed_mps: 0.1,
@@ -204,6 +219,66 @@ fn callback(library: &Library) {
                 engine.process(&mut block, 2);
                 black_box(&block);
             }
+        },
+    );
+    assert!(handle.status().level_mps2 > 0.0 && handle.status().peak > 0.0, "the output is silent");
+}
+
+/// A texture with every layer: grain across and along a rotated lay, relief, height map, friction that sticks, and a tap
+/// transient.
+fn layered(library: &Library) -> TextureModel {
+    let model = library.textures[0].model.clone();
+    let along =
+        model.nodes().iter().map(|node| GrainNode { level_mps2: 0.5 * node.level_mps2, ..node.clone() });
+    let along = along.collect();
+    let n = 256_u32;
+    let wave = |waves: u32, i: u32| (std::f64::consts::TAU * f64::from(waves * i) / f64::from(n)).sin();
+    let heights_m = (0..n * n).map(|i| 5e-6 * wave(7, i % n) * wave(11, i / n) + 2e-6 * wave(40, i % n));
+    let options = HeightMapOptions { speed_exponent: 1.5, ..HeightMapOptions::HARD_PLASTIC };
+    let map = HeightMap::new(heights_m.collect(), 0.02, options).expect("no height map");
+    let values = (0..4096).map(|i| 0.2 * wave(3, i)).collect();
+    let relief =
+        Relief::new(Profile::new(2e-5, values).expect("no profile"), Newtons(1.0)).expect("no relief");
+    let stick_slip = StickSlip { static_ratio: 2.0, stribeck_speed: MetersPerSecond(0.05) };
+    let model = model.with_along(Some(along)).expect("no grain along the lay");
+    model
+        .with_friction(Some(0.8))
+        .expect("no friction")
+        .with_stick_slip(Some(stick_slip))
+        .with_height_map(Some(Arc::new(map)))
+        .with_relief(Some(Arc::new(relief)))
+        .with_turn_rad(0.3)
+}
+
+/// Cost of the audio callback with one texture that has every layer, under a hand that strokes in all directions and taps
+/// every 40 ms. The note is the share of the time that a device allots to it.
+fn callback_with_layers(library: &Library) {
+    let model = layered(library);
+    let (mut handle, mut engine) = playing(&Plane::new(&model).prepare());
+    handle.set_tap(model.tap().expect("no tap transient").into());
+    handle.set_input(Input::Live);
+    let mut live = handle.take_live_input().expect("no live input");
+    let mut block = [0.0; 2 * 128];
+    let n_blocks = 48_000_u32 * 20 / 128;
+    let n_frames = f64::from(n_blocks) * 128.0;
+    bench_noted(
+        "callback: one texture with grain across and along, relief, height map, stick-slip and taps; 48 kHz, 128 frames of two channels",
+        n_frames,
+        "frame",
+        || {
+            let begun = Instant::now();
+            for i in 0..n_blocks {
+                // On a circle of 20 mm at 50 mm/s, in the air for every 15th block.
+                let (sin, cos) = (0.0133 * i as f32).sin_cos();
+                let is_down = i % 15 != 14;
+                let contact = Contact { speed_mps: 0.05, force_n: if is_down { 1.0 } else { 0.0 } };
+                let touch = Touch { x_m: 0.01 * cos, y_m: 0.01 * sin, contact };
+                live.land(touch, Instant::now(), Some(0.1)).expect("the queue of touches is full");
+                engine.process(&mut block, 2);
+                black_box(&block);
+            }
+            let share = begun.elapsed().as_secs_f64() / (n_frames / 48_000.0);
+            format!("{:.2} % of the time allotted", 100.0 * share)
         },
     );
     assert!(handle.status().level_mps2 > 0.0 && handle.status().peak > 0.0, "the output is silent");
@@ -254,6 +329,7 @@ fn reblending(library: &Library, planes: &[Plane]) {
                 seed: 1,
                 drive: DriveConfig::proportional(20.0, 0.9),
                 channels: ChannelMask::FIRST_TWO,
+                friction: None,
             })
             .expect("no engine");
             for three in prepared.chunks(3) {

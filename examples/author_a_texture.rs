@@ -16,12 +16,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let library = starter_library()?;
     let space = Space::new(&library.positions())?;
     let planes: Vec<Plane> = library.textures.iter().map(|texture| Plane::new(&texture.model)).collect();
-    let layers: Vec<_> = library
-        .textures
-        .iter()
-        .zip(&planes)
-        .map(|(t, plane)| Some(Layers { plane, friction: t.model.friction(), tap: t.model.tap() }))
-        .collect();
+    let layers: Vec<_> =
+        library.textures.iter().zip(&planes).map(|(t, plane)| Some(Layers::of(&t.model, plane))).collect();
     let models = Models::new(&space, &layers)?;
     let authoring = Authoring::new(space).with_models(Arc::new(models));
 

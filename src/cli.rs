@@ -20,13 +20,17 @@ mod codec_encode;
 mod devices;
 mod devices_pens;
 mod drawn_pictures;
+mod drawn_touches;
 mod evaluate;
 mod evaluate_codec;
 mod export;
+mod fit_args;
 mod generate;
+mod generated_texture;
 mod guide;
 mod hid_files;
 mod import;
+mod import_directional;
 mod import_hatt;
 mod import_recording;
 mod latency;
@@ -60,6 +64,7 @@ mod recording_answers;
 mod recording_source;
 mod render;
 mod rig;
+mod shape_args;
 mod signal_source;
 mod space_build;
 mod space_judgments;
@@ -206,6 +211,7 @@ enum ProjectCommand {
 
 #[derive(clap::Subcommand)]
 enum ImportCommand {
+    Directional(import_directional::Args),
     Hatt(import_hatt::Args),
     Recording(import_recording::Args),
 }
@@ -226,7 +232,7 @@ enum EvaluateCommand {
 #[derive(clap::Subcommand)]
 enum TextureCommand {
     /// Computes the power spectral density of a texture's model.
-    Psd(texture_psd::Args),
+    Psd(Box<texture_psd::Args>),
     Path(Box<texture_path::Args>),
 }
 
@@ -259,6 +265,7 @@ pub(crate) fn run(open_window: OpenWindow) -> ExitCode {
         Some(Command::Project(ProjectCommand::New(args))) => project_new::run(args),
         Some(Command::Project(ProjectCommand::Show(args))) => project_show::run(args),
         Some(Command::Export(args)) => export::run(args),
+        Some(Command::Import(ImportCommand::Directional(args))) => import_directional::run(args),
         Some(Command::Import(ImportCommand::Hatt(args))) => import_hatt::run(args),
         Some(Command::Import(ImportCommand::Recording(args))) => import_recording::run(args),
         Some(Command::Render(args)) => render::run(args),

@@ -314,6 +314,7 @@ fn the_one_who_plays() {
             budget: Some(Budget { rms: 0.28, time_secs: 10.0 }),
         },
         channels: ChannelMask::FIRST_TWO,
+        friction: None,
         take_over: false,
     };
     let (mut handle, running) = open("pulse:ci", options).unwrap();

@@ -112,7 +112,8 @@ static int play_port(const char *name, const char *file, double secs)
 
 int main(int n_args, char **args)
 {
-    const shagreen_about about = {SHAGREEN_HAS_STREAM | SHAGREEN_HAS_CONTROL, 1000, 16000, "C receiver"};
+    const shagreen_about about = {SHAGREEN_HAS_STREAM | SHAGREEN_HAS_CONTROL | SHAGREEN_HAS_FRICTION, 1000, 16000,
+                                  "C receiver"};
     shagreen_init(&receiver, about);
     if (n_args == 4) {
         return play_port(args[1], args[2], atof(args[3]));

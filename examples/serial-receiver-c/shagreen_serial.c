@@ -176,10 +176,11 @@ static void forget(shagreen_receiver *r)
 
 static bool configure(shagreen_receiver *r, const uint8_t *p, size_t len)
 {
-    if (len < 18 || p[0] == 0 || p[1] > SHAGREEN_CONTROL || get16(p + 2) == 0) {
+    static const uint8_t flags[] = {SHAGREEN_HAS_STREAM, SHAGREEN_HAS_CONTROL, SHAGREEN_HAS_FRICTION};
+    if (len < 18 || p[0] == 0 || p[1] > SHAGREEN_FRICTION || get16(p + 2) == 0) {
         return false;
     }
-    uint8_t flag = p[1] == SHAGREEN_CONTROL ? SHAGREEN_HAS_CONTROL : SHAGREEN_HAS_STREAM;
+    uint8_t flag = flags[p[1]];
     uint16_t rate_hz = get16(p + 2);
     if (!(r->about.flags & flag) || rate_hz < r->about.rate_min_hz || rate_hz > r->about.rate_max_hz) {
         shagreen_fault(r, true, "no such mode or rate");
@@ -210,7 +211,7 @@ static bool take_samples(shagreen_receiver *r, uint16_t seq, const uint8_t *p, s
         return false;
     }
     uint16_t n = (uint16_t)((len - 1) / 2), n_new = 0;
-    if (r->settings.config != 0 && r->settings.mode == SHAGREEN_STREAM && p[0] == r->run) {
+    if (r->settings.config != 0 && r->settings.mode != SHAGREEN_CONTROL && p[0] == r->run) {
         r->unfed_ticks = 0;
         n_new = put_samples(r, seq, p + 1, n);
     }
@@ -337,7 +338,7 @@ int16_t shagreen_tick(shagreen_receiver *r, int16_t rendered)
         r->gain = (uint16_t)(r->gain > 0 ? r->gain - 1 : 0);
         if (r->gain == 0) {
             r->is_falling = false;
-            if (r->is_playing && r->len == 0 && s->mode == SHAGREEN_STREAM) {
+            if (r->is_playing && r->len == 0 && s->mode != SHAGREEN_CONTROL) {
                 starve(r);
             }
         }
@@ -351,8 +352,8 @@ int16_t shagreen_tick(shagreen_receiver *r, int16_t rendered)
         starve(r);
     }
     int32_t faded = (int32_t)r->held * r->gain / s->fade;
-    int32_t ceiling = s->ceiling;
-    return (int16_t)(faded > ceiling ? ceiling : faded < -ceiling ? -ceiling : faded);
+    int32_t ceiling = s->ceiling, floor = s->mode == SHAGREEN_FRICTION ? 0 : -ceiling;
+    return (int16_t)(faded > ceiling ? ceiling : faded < floor ? floor : faded);
 }
 
 size_t shagreen_transmit(shagreen_receiver *r, uint8_t wire[SHAGREEN_MAX_WIRE])

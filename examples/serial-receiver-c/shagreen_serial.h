@@ -24,9 +24,9 @@
 #define SHAGREEN_MAX_SAMPLES 120
 #define SHAGREEN_MAX_SENSOR 119
 
-enum { SHAGREEN_STREAM = 0, SHAGREEN_CONTROL = 1 };
+enum { SHAGREEN_STREAM = 0, SHAGREEN_CONTROL = 1, SHAGREEN_FRICTION = 2 };
 enum { SHAGREEN_UNCONFIGURED = 0, SHAGREEN_ARMED = 1, SHAGREEN_FILLING = 2, SHAGREEN_PLAYING = 3 };
-enum { SHAGREEN_HAS_STREAM = 1, SHAGREEN_HAS_CONTROL = 2, SHAGREEN_HAS_SENSOR = 4 };
+enum { SHAGREEN_HAS_STREAM = 1, SHAGREEN_HAS_CONTROL = 2, SHAGREEN_HAS_SENSOR = 4, SHAGREEN_HAS_FRICTION = 8 };
 
 /* Capabilities that the receiver reports. */
 typedef struct {
@@ -93,7 +93,8 @@ typedef struct {
 void shagreen_init(shagreen_receiver *r, shagreen_about about);
 /* Processes the next byte from the line. */
 void shagreen_receive(shagreen_receiver *r, uint8_t byte);
-/* Returns the next sample to play; `rendered` is used in control mode only. */
+/* Returns the next sample to play; `rendered` is used in control mode only. In friction mode it is a level of friction,
+ * 0 to 32767. */
 int16_t shagreen_tick(shagreen_receiver *r, int16_t rendered);
 /* Writes the next frame to send, and returns its length in bytes; 0 if there is none. */
 size_t shagreen_transmit(shagreen_receiver *r, uint8_t wire[SHAGREEN_MAX_WIRE]);

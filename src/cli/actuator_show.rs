@@ -104,6 +104,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 "Equalizer at {rate_hz} Hz: flat response from {low} Hz (3 dB down) to {high} Hz; gain at most {gain_bound:.3} V per m/s²"
             ));
         }
+        if let Some(display) = actuator.friction {
+            let (carrier_hz, channel) = (display.carrier.0, display.channel);
+            lines.push(format!("Friction display: carrier of {carrier_hz} Hz on channel {channel}"));
+        }
         lines.push(actuator.source.clone());
         lines.join("\n")
     });

@@ -49,6 +49,7 @@ pub(crate) fn actuator_json(actuator: &Actuator) -> Value {
         "gain": response.map(|r| r.gain_mps2_per_v()),
         "lowest_hz": actuator.lowest.0,
         "fit_error_db": actuator.calibrated.map(|c| c.fit_error_db),
+        "friction": actuator.friction.map(|f| json!({"carrier_hz": f.carrier.0, "channel": f.channel})),
     })
 }
 

@@ -264,7 +264,8 @@ fn write_stroke(rows: &[(f64, TrackedSample)], out: &Path) -> anyhow::Result<()>
         let report = &moment.report;
         let press = if is_in_newtons { report.force_n } else { report.pressure };
         let (x_m, y_m, touching) = (report.x_m?, report.y_m?, report.touching());
-        Some(PenSample { time_secs: *time_secs, x_m, y_m, press: press.unwrap_or(0.0), touching })
+        let (press, impact_mps) = (press.unwrap_or(0.0), moment.impact_mps.map(f64::from));
+        Some(PenSample { time_secs: *time_secs, x_m, y_m, press, touching, impact_mps })
     };
     if rows.is_empty() {
         bail!(

@@ -5,12 +5,14 @@ use std::path::PathBuf;
 use anyhow::bail;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use serde_json::json;
+use shagreen_core::texture::shape::Shape;
 use shagreen_studio::export::{self, ExportFormat, ExportOutcome};
 use shagreen_studio::near_names::unknown_texture;
 use shagreen_studio::replace::refuse_inputs;
 
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed};
+use crate::cli::shape_args::ShapeArgs;
 
 /// Exports a texture in the format of another program, and reports what that format cannot store.
 #[derive(clap::Args)]
@@ -20,6 +22,8 @@ pub(crate) struct Args {
     texture: String,
     #[command(flatten)]
     library: LibraryArgs,
+    #[command(flatten)]
+    shape: ShapeArgs,
     /// File format. `shagreen render` writes the WAV file of a stroke.
     #[arg(long, value_parser = parser())]
     format: Format,
@@ -37,7 +41,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let Some(index) = library.index_of(&args.texture) else {
         bail!(unknown_texture(&library, &args.texture))
     };
-    let texture = &library.textures[index];
+    let texture = &export::shaped(&library.textures[index], &args.shape.or(Shape::default()))?;
     let out = (args.out.as_path(), output::CREATED_BY);
     let ExportOutcome { files, lost, license, warnings } =
         export::export(&library, texture, args.format.0, out, &Printed)?;

@@ -6,32 +6,31 @@ use std::sync::Arc;
 use anyhow::{Context as _, bail, ensure};
 use serde_json::{Value, json};
 use shagreen_core::maths::gaussian_process::Estimate;
-use shagreen_core::space::authoring::Blending;
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::surfaces::generated::{CombinedEstimate, place};
 use shagreen_core::surfaces::prompt::{PromptInterpretation, interpret, title};
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
-use shagreen_core::texture::TextureModel;
-use shagreen_core::texture::blend::Mode;
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::lexicon_toml::built_in_lexicon;
-use shagreen_formats::library::{Library, Place, TextureEntry, id_from_name, write_library};
+use shagreen_formats::library::{Library, TextureEntry, write_library};
 use shagreen_formats::picture::{Rgb, encode_heights, encode_jpeg, encode_png};
-use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary, write_project};
+use shagreen_formats::project::{AuthoredTexture, EXTENSION, write_project};
 use shagreen_learn::diffusion::{LONGEST_SIDE, Wish};
 use shagreen_learn::model_file::sha256_of;
 use shagreen_learn::picture_predictor::PicturePredictor;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
+use crate::cli::generated_texture::{project_of_picture, texture_of_picture};
 use crate::cli::model_folder::model_folder;
-use crate::cli::output::{self, Printed};
+use crate::cli::output;
 use crate::cli::progress::Progress;
 use crate::cli::prompt_summary::prompt_summary;
-use shagreen_studio::authoring::authoring;
 use shagreen_studio::figure_files::{check_together, write_together};
 use shagreen_studio::file;
-use shagreen_studio::generate::{GeneratedPicture, generate_by_diffusion, generate_procedurally, nearest};
+use shagreen_studio::generate::{
+    GeneratedPicture, PicturedRelief, generate_by_diffusion, generate_procedurally, nearest,
+};
 use shagreen_studio::replace::{has_format, refuse_foreign};
 
 /// Value of the field `format` of the description.
@@ -41,6 +40,9 @@ const PICTURE: &str = "picture.png";
 const HEIGHTS: &str = "heights.png";
 const TEXTURE: &str = "texture.json";
 const DESCRIPTION: &str = "generated.json";
+/// Where a texture comes from, in words.
+const FROM_HEIGHTS: &str = "simulated from its height field";
+const FROM_LIBRARY: &str = "interpolated from the starter library";
 /// Longest name of a texture, in characters.
 const LONGEST_NAME: usize = 60;
 
@@ -49,7 +51,8 @@ const LONGEST_NAME: usize = 60;
 ///
 /// The built-in procedural generator needs no neural network: a lexicon interprets words for materials, patterns,
 /// colors, sizes and adjectives. Its picture is seamless, and the surface heights that it shows are written too. The
-/// command reports attributes for which prompt and picture predict different values.
+/// texture is simulated from the same heights: a pattern is felt where the picture shows it. The command reports
+/// attributes for which prompt and picture predict different values.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Description of the surface, such as "a rough, soft carpet-like surface".
@@ -64,6 +67,10 @@ pub(crate) struct Args {
     /// Pixels along each side of the picture.
     #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(64..=2048))]
     size: u32,
+    /// Interpolate the texture from the starter library, instead of simulating it from the heights that the picture shows.
+    /// Pictures of a diffusion model have no heights; their textures are always interpolated.
+    #[arg(long)]
+    interpolated: bool,
     /// Generate the picture with the diffusion model that `shagreen model add` registered; this takes minutes to hours
     /// on a CPU.
     #[arg(long)]
@@ -102,25 +109,21 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let [of_rough, of_hard, ..] = understood.attributes;
     let placed = place([of_rough, of_hard], [rough, hard], made.witness());
     let at = placed.at;
+    progress.finish();
 
     let library = BuiltIn::Starter.read()?;
-    let model = felt_at(&library, at)?;
     let rgb = Rgb::from(&made.picture);
     let picture = encode_jpeg(&rgb, made.picture.millimeters)?;
     let neighbors = neighbors(&library, at);
-    let entry = TextureEntry {
-        description: format!("Generated from the prompt \"{name}\"; nobody rated it."),
-        place: Some(Place { at, source: LabelSource::Estimated }),
-        picture: Some(picture.clone()),
-        ..TextureEntry::new(id_from_name(&name), &name, model)
+    let surface = made.relief.as_ref().map(|relief| &relief.surface).filter(|_| !args.interpolated);
+    let entry = texture_of_picture(surface, &library, &name, at, &picture)?;
+    let authored = AuthoredTexture {
+        at,
+        picture: Some(Arc::new(picture)),
+        notes: format!("Generated from a prompt by the {}, seed {}: {}", made.by, args.seed, args.prompt),
+        ..AuthoredTexture::new(1, &name)
     };
-    let mut project = Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), &name);
-    if let Some(texture) = project.authored.first_mut().map(Arc::make_mut) {
-        texture.at = at;
-        texture.picture = Some(Arc::new(picture));
-        texture.notes =
-            format!("Generated from a prompt by the {}, seed {}: {}", made.by, args.seed, args.prompt);
-    }
+    let project = project_of_picture(authored, surface.map(|_| &entry), &library);
     let file = |name: &str| args.out.join(name);
     let shown = |name: &str| file(name).display().to_string();
     let mut result = json!({
@@ -131,6 +134,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "millimeters_source": if made.relief.is_some() { "made" } else { "assumed" },
         "at": [at.rough_smooth, at.hard_soft],
         "texture": shown(TEXTURE),
+        "texture_source": if surface.is_some() { "height field" } else { "interpolation" },
         "project": shown(&project_name),
         "seed": args.seed,
         "model": made.by,
@@ -146,7 +150,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "is_about_touch": understood.is_about_touch(),
     });
     let mut files = vec![(file(PICTURE), encode_png(&rgb)?)];
-    if let Some((field, _)) = &made.relief {
+    if let Some(PicturedRelief { field, .. }) = &made.relief {
         let heights = field.heights_m();
         let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
         let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -154,11 +158,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         result["heights_um"] = json!([1e6 * low, 1e6 * high]);
         files.push((file(HEIGHTS), encode_heights(heights, field.tile().n_cells)?));
     }
-    let library_of_one = library_of_one(args, &name, &made.by, &library, entry);
+    let source = if surface.is_some() { FROM_HEIGHTS } else { FROM_LIBRARY };
+    let library_of_one = Library {
+        origin: format!("Generated from a prompt by the {} of Shagreen; {source}.", made.by),
+        ..library_of_one(args, &name, &library, entry)
+    };
     files.push((file(TEXTURE), write_library(&library_of_one)));
     files.push((file(&project_name), write_project(&project, &args.out, output::CREATED_BY)));
     write(&args.out, files, &mut result)?;
-    progress.finish();
     output::print(args.json, &result, || {
         let line = |(name, axis): (&str, &CombinedEstimate)| {
             format!("{name:<13}  {:5.1} ± {:.1}\n", axis.estimate.mean, axis.estimate.deviation)
@@ -172,7 +179,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         };
         let near: Vec<&str> = neighbors.iter().filter_map(|near| near["name"].as_str()).collect();
         format!(
-            "{lines}nearest textures: {}{quarrel}{}\npicture by the {}: {}\ntexture: {}\nproject: {}",
+            "{lines}nearest textures: {}{quarrel}{}\npicture by the {}: {}\ntexture, {source}: {}\nproject: {}",
             near.join(", "),
             prompt_summary(&understood),
             made.by,
@@ -185,35 +192,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 /// Returns a library of the generated texture alone.
-fn library_of_one(args: &Args, name: &str, by: &str, library: &Library, entry: TextureEntry) -> Library {
+fn library_of_one(args: &Args, name: &str, library: &Library, entry: TextureEntry) -> Library {
     Library {
         name: name.to_owned(),
-        origin: format!(
-            "Generated from a prompt by the {by} of Shagreen; interpolated from the starter library."
-        ),
         license: library.license.clone(),
         created_by: output::CREATED_BY.to_owned(),
         seed: Some(args.seed),
         textures: vec![entry],
         ..Library::default()
     }
-}
-
-/// Returns the texture at a position; a note reports a position outside the hull.
-fn felt_at(library: &Library, at: SpacePoint) -> anyhow::Result<TextureModel> {
-    let authoring = authoring(library, Mode::Field, &Printed)?;
-    let blending = Blending::default();
-    let authored = authoring
-        .author(at, &blending)
-        .context("the starter library has no positions; reinstall Shagreen")?;
-    if authored.location.clamped {
-        output::note(&format!(
-            "the predicted position {at} lies outside the convex hull of the textures; the nearest point of the hull is used"
-        ));
-    }
-    authored.model.with_context(|| {
-        format!("the interpolated field has no texture at {at}; use a more specific prompt, or another one")
-    })
 }
 
 fn read_looker(args: &Args) -> anyhow::Result<PicturePredictor> {

@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::recording::Recording;
-use shagreen_core::recording::fit::{self, FitOptions, Fitted, MODEL_RATES_HZ};
-use shagreen_core::texture::{Interpolation, MAX_ORDER};
-use shagreen_core::units::Hertz;
+use shagreen_core::recording::fit::{self, Fitted};
 use shagreen_formats::atomic;
 use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg, is_fit_report_csv, is_fit_report_svg};
 use shagreen_formats::library::{TextureEntry, name_from_file};
 use shagreen_formats::recording::{Ask, ColumnMap};
 
+use crate::cli::fit_args::{FitArgs, tap_json};
 use crate::cli::import::{Destination, Outcome, files_in};
 use crate::cli::progress::Progress;
 use crate::cli::recording_answers::{map_of, parse_answer};
@@ -42,15 +41,8 @@ pub(crate) struct Args {
     /// Treat all files as strokes on one texture with this name.
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
-    /// Model rate (sample rate of the model), in Hz. Default: selected from the bandwidth of the recordings.
-    #[arg(long, value_name = "HZ", value_parser = parse_rate)]
-    rate: Option<f64>,
-    /// Model order (order of the linear predictor). Default: selected by the Bayesian information criterion.
-    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=MAX_ORDER as i64))]
-    order: Option<u8>,
-    /// Interpolation of the model between the measured speeds and forces.
-    #[arg(long, value_name = "MODE", value_parser = ["barycentric", "radial-basis"], default_value = "barycentric")]
-    interpolation: String,
+    #[command(flatten)]
+    fit: FitArgs,
     /// License of the textures, for example an SPDX expression.
     #[arg(long, default_value = "", hide_default_value = true)]
     licence: String,
@@ -133,14 +125,7 @@ fn import(
     if recordings.is_empty() {
         return Ok(());
     }
-    let options = FitOptions {
-        rate: args.rate.map(Hertz),
-        order: args.order.map(usize::from),
-        interpolation: match args.interpolation.as_str() {
-            "radial-basis" => Interpolation::RadialBasis,
-            _ => Interpolation::Barycentric,
-        },
-    };
+    let options = args.fit.options();
     let fitted = match fit::fit(&recordings, &options) {
         Ok(fitted) => fitted,
         Err(error) => {
@@ -225,17 +210,6 @@ fn figures(files: &[&Path], fitted: &Fitted) -> Value {
         "gfc_median": report.gfc_median(),
         "level_error_db_median": report.level_error_db_median(),
         "held_out": report.held_out,
-        "tap": report.tap.as_ref().map(|t| json!({
-            "frequency_hz": t.tap.frequency.0,
-            "decay_per_s": t.tap.decay_per_sec,
-            "amplitude_mps2": t.tap.amplitude_mps2,
-            "landings": t.n_landings,
-            "explained": t.explained,
-        })),
+        "tap": tap_json(report.tap.as_ref()),
     })
-}
-
-fn parse_rate(text: &str) -> Result<f64, String> {
-    let rate = MODEL_RATES_HZ.into_iter().find(|rate| rate.to_string() == text);
-    rate.ok_or_else(|| format!("it must be {} Hz", MODEL_RATES_HZ.map(|rate| rate.to_string()).join(" or ")))
 }

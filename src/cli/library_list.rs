@@ -45,6 +45,15 @@ fn describe(library: &Library, texture: &TextureEntry) -> Value {
         "relief": texture.model.relief().map(|relief| {
             json!({"length_mm": 1e3 * relief.profile().length_m(), "force_n": relief.force().0})
         }),
+        "directional": texture.model.along().is_some(),
+        "height_map": texture.model.height_map().map(|map| {
+            json!({"side_mm": 1e3 * map.side_m(), "n": map.n(), "force_n": map.options().force.0})
+        }),
+        "stick_slip": texture.model.stick_slip().map(|stick_slip| {
+            let stribeck_mm_per_s = stick_slip.stribeck_speed.mm_per_s();
+            json!({"static_ratio": stick_slip.static_ratio, "stribeck_mm_per_s": stribeck_mm_per_s})
+        }),
+        "turn_deg": texture.model.turn_rad().to_degrees(),
         "restricted": texture.provenance == Provenance::Restricted,
         "licence": library.license_of(texture),
     })
@@ -72,8 +81,13 @@ fn table(library: &Library) -> String {
         let relief = model.relief().map_or_else(String::new, |relief| {
             format!(", relief of {:.1} mm", 1e3 * relief.profile().length_m())
         });
+        let direction = if model.along().is_some() { ", directional" } else { "" };
+        let height_map = model
+            .height_map()
+            .map_or_else(String::new, |map| format!(", height map of {:.1} mm", 1e3 * map.side_m()));
+        let stick_slip = if model.stick_slip().is_some() { ", stick-slip" } else { "" };
         format!(
-            "{:widest$}  {}, {place}, {} speed-force points, model order {}, model rate {}{path}{relief}",
+            "{:widest$}  {}, {place}, {} speed-force points, model order {}, model rate {}{path}{relief}{direction}{height_map}{stick_slip}",
             texture.id,
             texture.name,
             model.n_nodes(),

@@ -6,16 +6,19 @@ use std::sync::Arc;
 use anyhow::{Context as _, anyhow, bail};
 use serde_json::json;
 use shagreen_core::dsp::spectrum::rms;
+use shagreen_core::texture::height_map::HeightMapOptions;
 use shagreen_core::texture::relief::Relief;
 use shagreen_core::units::Newtons;
 use shagreen_formats::atomic;
-use shagreen_formats::library::write_library;
+use shagreen_formats::height_picture::HeightScale;
+use shagreen_formats::library::{Library, write_library};
 
 use crate::cli::library_args::LibraryArgs;
-use crate::cli::output::{self, Usage, warn_of_restricted};
+use crate::cli::output::{self, Printed, Usage, warn_of_restricted};
 use crate::cli::profile_source::ProfileArgs;
 use crate::cli::quantity::positive;
 use shagreen_studio::file;
+use shagreen_studio::height_map;
 use shagreen_studio::near_names::unknown_texture;
 use shagreen_studio::replace::{is_library, refuse_foreign, refuse_inputs};
 
@@ -24,6 +27,9 @@ use shagreen_studio::replace::{is_library, refuse_foreign, refuse_inputs};
 ///
 /// The values of a WAV file are accelerations in m/s². Heights, brightness and friction are not accelerations: for
 /// them, --level states the level of the relief. Beyond its end, the relief continues as its mirror image.
+///
+/// With --side-mm and --height-um, a whole photo or picture of heights becomes a height map, which is felt in two
+/// dimensions: brightness is height, and the tile repeats without a seam.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -37,9 +43,22 @@ pub(crate) struct Args {
     /// option.
     #[arg(long, value_name = "MPS2", value_parser = positive)]
     level: Option<f64>,
-    /// Force at which the relief has this level, in N; the level is proportional to force.
+    /// Force at which the relief has this level, in N; the level is proportional to force. For a height map, the force of
+    /// its contact patch; its level grows with the cube root of force.
     #[arg(long, value_name = "N", value_parser = positive, default_value = "1")]
     force: f64,
+    /// Side of the surface in the central square of the picture, in mm: the picture becomes a height map.
+    #[arg(
+        long,
+        value_name = "MM",
+        value_parser = positive,
+        requires = "height_um",
+        conflicts_with_all = ["width", "row", "speed", "full_scale", "channel", "level"]
+    )]
+    side_mm: Option<f64>,
+    /// Height of white above black in the picture, in µm. For a photo, it is your estimate.
+    #[arg(long, value_name = "UM", value_parser = positive, requires = "side_mm")]
+    height_um: Option<f64>,
     /// Library file to write.
     #[arg(short, long, value_name = "L2")]
     out: PathBuf,
@@ -51,6 +70,15 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[Some(args.profile.path()), args.library.path()])?;
     refuse_foreign(&args.out, "a library", is_library)?;
+    match (args.side_mm, args.height_um) {
+        (Some(side_mm), Some(height_um)) => {
+            add_height_map(args, HeightScale { side_m: 1e-3 * side_mm, height_m: 1e-6 * height_um })
+        }
+        _ => add_profile(args),
+    }
+}
+
+fn add_profile(args: &Args) -> anyhow::Result<()> {
     let profile = args.profile.load_felt()?;
     if args.level.is_none() && !args.profile.is_signal() {
         return Err(Usage(
@@ -80,9 +108,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         output::warn(&format!("\"{}\" already has a relief, which is replaced", args.texture));
     }
     entry.model = entry.model.clone().with_relief(Some(Arc::new(relief)));
-    output::CREATED_BY.clone_into(&mut library.created_by);
-    warn_of_restricted(&library);
-    atomic::write(&args.out, &write_library(&library))?;
+    write(library, args)?;
     output::print(
         args.json,
         &json!({
@@ -103,5 +129,46 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             )
         },
     );
+    Ok(())
+}
+
+fn add_height_map(args: &Args, scale: HeightScale) -> anyhow::Result<()> {
+    let options = HeightMapOptions { force: Newtons(args.force), ..HeightMapOptions::HARD_PLASTIC };
+    let picture = height_map::of_picture(args.profile.path(), scale, options, &Printed)?;
+    let map = &picture.map;
+    let low_um = 1e6 * map.heights_m().iter().copied().fold(f64::INFINITY, f64::min);
+    let high_um = 1e6 * map.heights_m().iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let (n, side_mm) = (map.n(), 1e3 * map.side_m());
+    let mut library = args.library.load()?;
+    height_map::add_to_texture(&mut library, &args.texture, picture.map, &Printed)?;
+    write(library, args)?;
+    output::print(
+        args.json,
+        &json!({
+            "texture": args.texture,
+            "heights": n,
+            "side_mm": side_mm,
+            "low_um": low_um,
+            "high_um": high_um,
+            "seamless": picture.is_seamless,
+            "assumed": picture.is_colored,
+            "force_n": args.force,
+            "out": args.out.display().to_string(),
+        }),
+        || {
+            format!(
+                "Added to \"{}\" a height map of {side_mm:.2} mm x {side_mm:.2} mm with {n} x {n} heights, {low_um:.1} to {high_um:.1} µm: {}",
+                args.texture,
+                args.out.display()
+            )
+        },
+    );
+    Ok(())
+}
+
+fn write(mut library: Library, args: &Args) -> anyhow::Result<()> {
+    output::CREATED_BY.clone_into(&mut library.created_by);
+    warn_of_restricted(&library);
+    atomic::write(&args.out, &write_library(&library))?;
     Ok(())
 }

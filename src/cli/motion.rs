@@ -25,7 +25,8 @@ pub(crate) struct MotionArgs {
     #[arg(long, value_name = "S", value_parser = quantity, conflicts_with = "stroke")]
     seconds: Option<f64>,
     /// Recorded stroke: pen samples (.svc); a table (.csv) with the columns t, x, y and pressure or force, or t, speed
-    /// and force; or pen reports with their descriptor, recorded with hid-recorder or usbhid-dump.
+    /// and force, optionally with speed_normal, the speed of a landing in mm/s; or pen reports with their descriptor,
+    /// recorded with hid-recorder or usbhid-dump.
     #[arg(long, value_name = "FILE")]
     stroke: Option<PathBuf>,
     #[command(flatten)]
@@ -94,11 +95,13 @@ impl Motion {
         }
     }
 
-    /// Returns the x position of the tip `time_secs` after the start, in m; `None` if only the speed is known.
-    pub(crate) fn place_m_at(&self, time_secs: f64) -> Option<f64> {
+    /// Returns the position of the tip `time_secs` after the start, to the right and upwards, in m; `None` if only the
+    /// speed is known.
+    pub(crate) fn place_m_at(&self, time_secs: f64) -> Option<[f64; 2]> {
         match self {
             Self::Stroke { contacts: StrokeContacts::Track(track), .. } => {
-                Some(f64::from(track.touch_at(time_secs).x_m))
+                let touch = track.touch_at(time_secs);
+                Some([touch.x_m, touch.y_m].map(f64::from))
             }
             Self::Steady { .. } | Self::Stroke { contacts: StrokeContacts::Given(_), .. } => None,
         }

@@ -97,6 +97,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "at": chosen.at_json(),
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
+            "shape": chosen.shape_text(),
         }),
         || {
             format!(
@@ -270,6 +271,7 @@ mod tests {
             seed: 1,
             drive: DriveConfig::proportional(20.0, 0.9),
             channels: ChannelMask::FIRST_TWO,
+            friction: None,
         })
         .unwrap();
         engine.process(&mut vec![0.0; 48_000], 1);

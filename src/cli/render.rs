@@ -119,6 +119,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
             "blend": chosen.mode.id(),
+            "shape": chosen.shape_text(),
             "seed": args.seed,
             "lost": lost,
         }),
@@ -163,7 +164,7 @@ impl Hand for Watched<'_> {
         self.motion.contact_at(time_secs)
     }
 
-    fn place_m_at(&mut self, time_secs: f64) -> Option<f64> {
+    fn place_m_at(&mut self, time_secs: f64) -> Option<[f64; 2]> {
         self.motion.place_m_at(time_secs)
     }
 }
@@ -202,6 +203,7 @@ fn sidecar(args: &Args, library: &Library, chosen: &Sound, motion: &Motion, rate
         clamped: chosen.clamped,
         extrapolated: chosen.extrapolated,
         blend: chosen.mode.id().to_owned(),
+        shape: chosen.shape_text(),
         parents: chosen.parents.iter().map(parent).collect(),
         library: library.name.clone(),
         label_source: library.label_source().map(|source| LabelSource::id(source).to_owned()),

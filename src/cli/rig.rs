@@ -1,7 +1,7 @@
 //! Device setup: an output, the actuator on it, and its limits.
 
 use anyhow::{Context as _, bail};
-use shagreen_core::actuator::{Drive, drive_config};
+use shagreen_core::actuator::{Actuator, Drive, drive_config};
 use shagreen_core::units::Volts;
 use shagreen_device::engine::{ChannelMask, Handle};
 use shagreen_device::output::{
@@ -10,6 +10,7 @@ use shagreen_device::output::{
 use shagreen_device::serial::message::Mode;
 use shagreen_device::serial::{self, Connection, SerialOptions, USUAL_BAUD};
 use shagreen_device::synth::drive::DriveConfig;
+use shagreen_studio::driven_channels::driven_channels;
 
 use crate::cli::actuator_source::{grams, load_actuator, volts};
 use crate::cli::output;
@@ -32,7 +33,8 @@ pub(crate) struct RigArgs {
     #[arg(long, value_name = "N", requires = "serial", conflicts_with = "output", default_value_t = USUAL_BAUD, value_parser = clap::value_parser!(u32).range(1..))]
     baud: u32,
     /// Data to send to the serial port: `stream` sends the samples of the drive signal; `control` sends speed, force
-    /// and texture to firmware that renders the texture itself.
+    /// and texture to firmware that renders the texture itself; `friction` sends the level of friction to a display that
+    /// renders friction.
     #[arg(
         long,
         value_name = "MODE",
@@ -51,7 +53,8 @@ pub(crate) struct RigArgs {
     /// dropouts.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(16..=65_536))]
     buffer: Option<u32>,
-    /// Actuator, by id or profile file: its response is equalized and its electrical limits are enforced.
+    /// Actuator, by id or profile file: its response is equalized and its electrical limits are enforced. If its profile
+    /// has a friction display, the friction of the texture is played on the channel of the display.
     #[arg(long, value_name = "ID_OR_FILE", conflicts_with = "full_scale", requires = "full_scale_volts")]
     actuator: Option<String>,
     /// Mass of the load on the actuator, in g, without the actuator itself. Default: the load of its profile.
@@ -83,23 +86,33 @@ pub(crate) struct Rig {
 enum SerialMode {
     Stream,
     Control,
+    Friction,
 }
 
 /// Returns the driven channels: the first two, or only the one with this number, from 1.
 pub(crate) fn channels(only: Option<u16>) -> ChannelMask {
-    only.map_or(ChannelMask::FIRST_TWO, |channel| ChannelMask::only(usize::from(channel).saturating_sub(1)))
+    driven_channels(None, index_of(only), false).0
+}
+
+/// Returns the index of the channel with this number, from 1.
+fn index_of(channel: Option<u16>) -> Option<usize> {
+    channel.map(|channel| usize::from(channel).saturating_sub(1))
 }
 
 impl RigArgs {
     /// Opens the output for textures of this rate, with this random seed of the noise.
     pub(crate) fn open(&self, model_rate_hz: f32, seed: u64) -> anyhow::Result<Rig> {
+        let actuator = self.actuator.as_ref().map(|name| load_actuator(name, self.load_g)).transpose()?;
+        let (channels, friction) =
+            driven_channels(actuator.as_ref(), index_of(self.channel), self.serial.is_some());
         let options = OpenOptions {
             model_rate_hz,
             preferred_rate_hz: None,
             buffer_frames: self.buffer,
             seed,
-            drive: self.drive()?,
-            channels: channels(self.channel),
+            drive: self.drive(actuator.as_ref())?,
+            channels,
+            friction,
             take_over: self.take_over,
         };
         let rig = match &self.serial {
@@ -111,6 +124,13 @@ impl RigArgs {
             Some(port) => self.open_serial(port, options)?,
         };
         let n_channels = rig.running.channels();
+        if let Some(friction) = friction.filter(|friction| friction.channel_idx >= usize::from(n_channels)) {
+            output::warn(&format!(
+                "friction is not rendered: the profile of the actuator puts it on channel {}, and {} has {n_channels}",
+                friction.channel_idx + 1,
+                rig.watch.what()
+            ));
+        }
         match self.channel.filter(|channel| *channel > n_channels) {
             None => Ok(rig),
             Some(channel) => bail!(
@@ -124,6 +144,7 @@ impl RigArgs {
         let mode = match self.serial_mode {
             SerialMode::Stream => Mode::Stream,
             SerialMode::Control => Mode::Control,
+            SerialMode::Friction => Mode::Friction,
         };
         let serial = SerialOptions { baud: self.baud, mode, ..SerialOptions::default() };
         let Connection { handle, running, receiver, mut heard } = serial::open(port, options, serial)?;
@@ -142,12 +163,12 @@ impl RigArgs {
         self.actuator.is_some()
     }
 
-    fn drive(&self) -> anyhow::Result<DriveConfig> {
-        let (Some(name), Some(full_scale)) = (&self.actuator, self.full_scale_volts) else {
+    fn drive(&self, actuator: Option<&Actuator>) -> anyhow::Result<DriveConfig> {
+        let (Some(actuator), Some(full_scale)) = (actuator, self.full_scale_volts) else {
             return Ok(DriveConfig::proportional(self.full_scale as f32, USUAL_CEILING));
         };
-        let actuator = load_actuator(name, self.load_g)?;
-        let config = drive_config(&actuator, Drive::new(Volts(full_scale))?, !self.no_equalizer);
+        let name = self.actuator.as_deref().unwrap_or(&actuator.id);
+        let config = drive_config(actuator, Drive::new(Volts(full_scale))?, !self.no_equalizer);
         let config = config.with_context(|| format!("the actuator `{name}` cannot be driven"))?;
         if let Some(warning) = actuator.limits_warning() {
             output::warn(&warning.to_string());

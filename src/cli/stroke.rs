@@ -76,6 +76,7 @@ fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<Stro
             PressUnit::Newtons => 0.0,
         },
         touching: sample.touching,
+        impact_mps: sample.impact_mps,
     };
     Ok(StrokeContacts::Track(track_of(&samples.iter().map(sample).collect::<Vec<_>>())?))
 }
@@ -183,8 +184,14 @@ impl StrokeContacts {
                         let time_secs = (i as f64 * WALK_STEP_SECS).min(duration_secs);
                         let contact = given_at(&contacts, time_secs);
                         let force_n = contact.force.0;
-                        let sample =
-                            TrackSample { time_secs, x_m, y_m: 0.0, force_n, touching: force_n > 0.0 };
+                        let sample = TrackSample {
+                            time_secs,
+                            x_m,
+                            y_m: 0.0,
+                            force_n,
+                            touching: force_n > 0.0,
+                            impact_mps: impact_mps_at(&contacts, time_secs),
+                        };
                         x_m += given_at(&contacts, time_secs + 0.5 * WALK_STEP_SECS).speed.0 * WALK_STEP_SECS;
                         sample
                     })
@@ -198,12 +205,22 @@ impl StrokeContacts {
 /// Integration step of given speeds, in seconds.
 const WALK_STEP_SECS: f64 = 0.002;
 
+/// Returns the last contact up to a time, and the first after it.
+fn around(contacts: &[TimedContact], time_secs: f64) -> (Option<&TimedContact>, Option<&TimedContact>) {
+    let after = contacts.partition_point(|contact| contact.time_secs <= time_secs);
+    (after.checked_sub(1).and_then(|i| contacts.get(i)), contacts.get(after))
+}
+
+/// Returns the impact speed of a contact that begins at this time: the highest that is stated around it.
+fn impact_mps_at(contacts: &[TimedContact], time_secs: f64) -> Option<f64> {
+    let (from, to) = around(contacts, time_secs);
+    [from, to].into_iter().flatten().filter_map(|contact| contact.impact_mps).reduce(f64::max)
+}
+
 /// Interpolates given speed and force linearly; zero outside the stroke.
 fn given_at(contacts: &[TimedContact], time_secs: f64) -> Contact {
-    let after = contacts.partition_point(|contact| contact.time_secs <= time_secs);
     let contact = |c: &TimedContact| (c.speed_mps, c.force_n);
-    let (speed_mps, force_n) = match (after.checked_sub(1).and_then(|i| contacts.get(i)), contacts.get(after))
-    {
+    let (speed_mps, force_n) = match around(contacts, time_secs) {
         (Some(from), Some(to)) => {
             let share = (time_secs - from.time_secs) / (to.time_secs - from.time_secs);
             let mix = |a: f64, b: f64| a + share * (b - a);
@@ -221,7 +238,8 @@ mod tests {
     use shagreen_formats::stroke::TimedContact;
 
     fn given() -> Vec<TimedContact> {
-        let contact = |time_secs, speed_mps, force_n| TimedContact { time_secs, speed_mps, force_n };
+        let contact =
+            |time_secs, speed_mps, force_n| TimedContact { time_secs, speed_mps, force_n, impact_mps: None };
         vec![contact(0.0, 0.1, 1.0), contact(1.0, 0.3, 0.5), contact(1.5, 0.0, 0.5)]
     }
 
@@ -243,12 +261,33 @@ mod tests {
     #[test]
     fn a_stroke_of_ages_is_refused_before_it_is_walked() {
         let lasting = |time_secs| {
-            let contact = |time_secs| TimedContact { time_secs, speed_mps: 0.1, force_n: 1.0 };
+            let contact =
+                |time_secs| TimedContact { time_secs, speed_mps: 0.1, force_n: 1.0, impact_mps: None };
             StrokeContacts::given(vec![contact(0.0), contact(time_secs)])
         };
         assert!(lasting(3600.0).is_ok());
         for time_secs in [3600.1, 1e12, 1e300] {
             assert!(lasting(time_secs).is_err(), "{time_secs} s");
+        }
+    }
+
+    #[test]
+    fn a_landing_has_the_impact_speed_that_the_table_states() {
+        let contact =
+            |time_secs, force_n, impact_mps| TimedContact { time_secs, speed_mps: 0.0, force_n, impact_mps };
+        let landings = vec![
+            contact(0.0, 0.0, None),
+            contact(0.1, 0.0, Some(0.05)),
+            contact(0.2, 1.0, Some(0.0)),
+            contact(0.3, 0.0, None),
+            contact(0.4, 0.0, None),
+            contact(0.5, 1.0, Some(0.2)),
+            contact(0.6, 0.0, None),
+            contact(0.7, 1.0, None),
+        ];
+        let track = StrokeContacts::Given(landings).into_track().unwrap();
+        for (time_secs, impact_mps) in [(0.15, Some(0.05)), (0.45, Some(0.2)), (0.65, None)] {
+            assert_eq!(track.impact_mps_at(time_secs), impact_mps, "{time_secs} s");
         }
     }
 

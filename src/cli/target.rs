@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use shagreen_core::space::SpacePoint;
+use shagreen_core::texture::shape::Shape;
 use shagreen_formats::library::Library;
 use shagreen_formats::project::Project;
 use shagreen_studio::project::{find_authored, load_project, textures_of};
@@ -13,6 +14,7 @@ use crate::cli::blending::BlendArgs;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed};
 use crate::cli::own_folder::permitted_libraries;
+use crate::cli::shape_args::ShapeArgs;
 
 /// Texture to render or play.
 #[derive(clap::Args)]
@@ -26,6 +28,8 @@ pub(crate) struct SoundArgs {
     project: Option<PathBuf>,
     #[command(flatten)]
     blending: BlendArgs,
+    #[command(flatten)]
+    shape: ShapeArgs,
 }
 
 #[derive(clap::Args)]
@@ -38,8 +42,8 @@ struct TargetArgs {
     /// Texture of the library, by id.
     #[arg(long, value_name = "ID")]
     texture: Option<String>,
-    /// Authored texture of the project, by name or number, with its interpolation settings in the project. `shagreen
-    /// project show` lists names and numbers.
+    /// Authored texture of the project, by name or number, with its interpolation settings and its shape in the project.
+    /// `shagreen project show` lists names and numbers.
     #[arg(long, value_name = "NAME", requires = "project", conflicts_with_all = ["blend", "natural", "extrapolate", "lock"])]
     authored: Option<String>,
 }
@@ -90,20 +94,22 @@ impl SoundArgs {
 
     /// Selects the texture that the arguments name.
     pub(crate) fn choose(&self, Textures { library, project }: &Textures) -> anyhow::Result<Sound> {
-        let (point, blending) = match (&self.target.authored, project) {
+        let (point, blending, own_shape) = match (&self.target.authored, project) {
             (Some(name), Some(project)) => {
                 let authored = find_authored(project, name)?;
-                (Some(authored.at), authored.blend.blending(|id| library.index_of(id)))
+                let blending = authored.blend.blending(|id| library.index_of(id));
+                (Some(authored.at), blending, authored.shape)
             }
-            _ => (self.target.at, self.blending.blending(library)?),
+            _ => (self.target.at, self.blending.blending(library)?, Shape::default()),
         };
+        let shape = self.shape.or(own_shape);
         if let Some(id) = &self.target.texture {
-            return Sound::of_texture(library, id, blending.mode);
+            return Sound::of_texture(library, id, blending.mode, &shape);
         }
         let Some(point) = point else {
             bail!(output::Usage("no texture is selected; give --at RS,HS, --texture ID, or --project FILE with --authored NAME".to_owned()))
         };
-        Sound::of_point(library, point, &blending, &Printed)
+        Sound::of_point(library, point, (&blending, &shape), &Printed)
     }
 }
 

@@ -6,6 +6,7 @@ use serde_json::json;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Authoring, Blending};
 use shagreen_core::space::texture_path::{Along, AtEnd, MAX_KEYS, Route, Stop, TexturePath};
+use shagreen_core::texture::shape::Shape;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 
@@ -14,6 +15,7 @@ use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed};
 use crate::cli::progress::Progress;
 use crate::cli::quantity::within;
+use crate::cli::shape_args::ShapeArgs;
 use crate::cli::target::parse_point;
 use crate::cli::words::words;
 use shagreen_studio::authoring::authoring;
@@ -37,6 +39,8 @@ pub(crate) struct Args {
     library: LibraryArgs,
     #[command(flatten)]
     blending: BlendArgs,
+    #[command(flatten)]
+    shape: ShapeArgs,
     /// Name of the texture.
     #[arg(long, value_name = "NAME", default_value = "Path")]
     name: String,
@@ -69,7 +73,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let route = Route::new(args.along, args.at_end, stops)?;
     let progress = Progress::endless("interpolating the textures of the path");
     let authoring = authoring(&library, blending.mode, &Printed)?;
-    let path = TexturePath::of_route(&authoring, &route, &blending)?;
+    let shape = args.shape.or(Shape::default());
+    let path = TexturePath::of_route(&authoring, &route, &blending)?.shaped(&shape)?;
     let outside = HullCounts::of(&authoring, &path, &blending);
     let (n_keys, length) = (path.keys().len(), path.length() / scale);
     let of: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();

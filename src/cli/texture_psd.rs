@@ -88,6 +88,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
             "blend": chosen.mode.id(),
+            "shape": chosen.shape_text(),
             "begins_path": chosen.path.is_some(),
         }),
         || {

@@ -11,6 +11,7 @@ use shagreen_core::space::attribute_predictor::{leave_one_out, linear_leave_one_
 use shagreen_core::words::counted;
 use shagreen_formats::attribute_table::attribute_table;
 
+use crate::cli::drawn_touches::drawn_touches;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::method_predictions::{Comparison, MethodPredictions};
 use crate::cli::output;
@@ -32,6 +33,12 @@ pub(crate) struct Args {
     library: LibraryArgs,
     #[command(flatten)]
     networks: NetworkArgs,
+    /// Number of drawn materials (random parameters) on which the prediction of hard-soft is evaluated too, with and
+    /// without tap transients; at least 5, or 0 for none. Each is stroked and tapped with another tool: tip radius 0.5 to
+    /// 3 mm, effective mass 10 to 40 g, half to double damping. Labels and tap transients are computed from the same
+    /// contact stiffness. Takes some seconds for each material.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    drawn: u32,
     /// Folder for the state of network training; an interrupted training resumes from it.
     #[arg(long, value_name = "FOLDER")]
     state: Option<PathBuf>,
@@ -45,6 +52,11 @@ const LEAST_KNOWN: usize = 5;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let started = Instant::now();
+    let n_drawn = args.drawn as usize;
+    ensure!(
+        n_drawn == 0 || n_drawn >= LEAST_KNOWN,
+        "--drawn is {n_drawn}, but at least {LEAST_KNOWN} materials are needed; give a larger number, or leave the option out"
+    );
     check_out(&args.networks, args.library.path())?;
     let library = args.library.load()?;
     let table = attribute_table(&library)?;
@@ -68,6 +80,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     });
     all.push(MethodPredictions::mean_of_others(&table.values));
     progress.finish();
+    let drawn = if n_drawn > 0 { Some(drawn_touches(n_drawn, args.networks.seed())?) } else { None };
     let trained = train_networks(&args.networks, args.state.as_deref(), &library, &table)?;
     all.extend(trained.judged);
 
@@ -90,13 +103,20 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "seconds": started.elapsed().as_secs_f64(),
     });
     result.extend(more.as_object().cloned().unwrap_or_default());
+    if let Some(drawn) = &drawn {
+        result.insert("drawn".to_owned(), Value::Object(drawn.as_json()));
+    }
     output::print(args.json, &Value::Object(result), || {
-        format!(
+        let of_library = format!(
             "Leave-one-texture-out errors over {}; attributes from {}.\n\n{}",
             counted(n, "texture"),
             table.source_words(),
             comparison.text()
-        )
+        );
+        match &drawn {
+            Some(drawn) => format!("{of_library}\n\n{}", drawn.text()),
+            None => of_library,
+        }
     });
     Ok(())
 }

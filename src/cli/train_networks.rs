@@ -78,7 +78,7 @@ pub(crate) struct NetworkArgs {
     /// Fraction of each training stroke of 1 s that is used, 0.2 to 1; a small fraction gives a quick test.
     #[arg(long, default_value_t = 1.0, value_parser = share)]
     share: f64,
-    /// Random seed of the training.
+    /// Random seed of the training and of drawn materials.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Number of networks trained in parallel, each with about 0.5 GB of memory. Default: the number of processors.
@@ -90,6 +90,11 @@ pub(crate) struct NetworkArgs {
 }
 
 impl NetworkArgs {
+    /// Returns the random seed.
+    pub(crate) fn seed(&self) -> u64 {
+        self.seed
+    }
+
     fn n_jobs(&self) -> usize {
         self.jobs.map_or_else(n_processors, usize::from)
     }

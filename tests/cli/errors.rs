@@ -214,7 +214,7 @@ fn damaged_libraries_name_the_texture_and_the_file() {
             format!("{before}3.0,{}", &after[after.find(',').unwrap() + 1..]),
             &["\"glass\"", "ascend"],
         ),
-        ("newer.json", starter.replacen("\"version\": \"1.1\"", "\"version\": \"2.0\"", 1), &["version 2.0"]),
+        ("newer.json", starter.replacen("\"version\": \"1.7\"", "\"version\": \"2.0\"", 1), &["version 2.0"]),
         ("other.json", "{\"format\": \"other\"}".to_owned(), &["not a texture library"]),
     ];
     for (name, text, words) in &cases {

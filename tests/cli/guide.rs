@@ -98,12 +98,19 @@ fn give(bench: &Bench, page: &str, lines: &[String]) {
         let said = bench.run("render --texture cork --speed 100 --force 1 --seconds 2 -o strokes/one.wav");
         assert_eq!(said.code, 0, "{said:?}");
     }
+    if takes("directions/") {
+        crate::import_directional::write_folder(bench, "directions");
+    }
     if takes("materials.toml") {
         let materials = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/starter/materials.toml");
         // Two materials are made quickly.
         let text = fs::read_to_string(materials).unwrap();
         let few: Vec<&str> = text.split("[[material]]").take(3).collect();
         bench.write("materials.toml", few.join("[[material]]"));
+    }
+    if takes("leather.png") {
+        let grain = |x: u32, y: u32| image::Luma([((31 * x * x + 57 * y * y) % 251) as u8]);
+        image::GrayImage::from_fn(64, 64, grain).save(bench.path("leather.png")).unwrap();
     }
     if takes("positions.csv") {
         let said = bench.run("library places --out positions.csv");

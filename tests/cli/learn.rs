@@ -113,6 +113,24 @@ fn five_attributes_are_told_to_ten_points_and_better_than_by_a_line() {
     assert_eq!(places["label_source"][0], "physical");
 }
 
+/// Few materials, because each takes seconds: the figures over 100 are in `docs/notes/predictors.md`.
+#[test]
+fn hardness_of_drawn_materials_is_predicted_with_and_without_taps() {
+    let bench = Bench::new();
+    let said = bench.json("train attributes --library simulated --drawn 6 --seed 3");
+    let drawn = &said["drawn"];
+    assert_eq!((&drawn["materials"], &drawn["seed"]), (&6.into(), &3.into()));
+    assert_eq!(drawn["label_source"], "physical");
+    assert!(drawn["note"].as_str().unwrap().contains("same contact stiffness"), "{drawn}");
+    for method in ["with tap transients", "without tap transients", "mean of the others"] {
+        let mae = drawn["baselines"][method]["mae"]["hard-soft"].as_f64().unwrap();
+        assert!((0.0..100.0).contains(&mae), "{method}: {mae}");
+    }
+    assert!(said["mae"]["hard-soft"].as_f64().unwrap() < 6.0, "{said}");
+    assert!(bench.json("train attributes")["drawn"].is_null());
+    bench.fails("train attributes --drawn 4", 1, &["--drawn is 4", "at least 5"]);
+}
+
 #[test]
 fn a_network_is_trained_kept_resumed_and_the_same_again() {
     let bench = Bench::new();
@@ -222,6 +240,18 @@ fn a_prompt_becomes_a_picture_a_point_a_texture_and_a_project() {
     let project = bench.json("project show made/project.shagreen");
     assert_eq!(project["authored"][0]["name"], "a rough, soft carpet-like surface");
     assert!(said["neighbors"].as_array().unwrap().len() == 3);
+    // The loops of the carpet are felt where the picture shows them, and the project plays this texture.
+    assert_eq!(said["texture_source"], "height field");
+    let file = |name: &str| -> Value {
+        serde_json::from_slice(&std::fs::read(bench.path(&format!("made/{name}"))).unwrap()).unwrap()
+    };
+    let texture = file("texture.json")["textures"][0].clone();
+    let side_mm = texture["height_map"]["side_mm"].as_f64().unwrap();
+    assert!((side_mm - said["millimeters"].as_f64().unwrap()).abs() < 1e-6, "{side_mm}");
+    let project = file("project.shagreen");
+    assert_eq!(project["joined"][0]["id"], texture["id"]);
+    assert_eq!(project["solo"], texture["id"]);
+    assert_eq!(project["authored"][0]["blend"]["locked"][0], texture["id"]);
 
     // The same seed gives the same files, over the earlier ones; another seed gives another result.
     let bytes = |name: &str| std::fs::read(bench.path(&format!("made/{name}"))).unwrap();
@@ -254,7 +284,8 @@ fn prompts_that_say_nothing_are_made_and_say_so() {
     for (prompt, is_about_touch) in
         [("the meaning of life", false), ("\u{7c97}\u{3044}\u{5e03}", false), (long.as_str(), true)]
     {
-        let said = generated(&bench, prompt, "--out any --size 64");
+        let said = generated(&bench, prompt, "--out any --size 64 --interpolated");
+        assert_eq!(said["texture_source"], "interpolation");
         assert_eq!(said["is_about_touch"], is_about_touch, "{prompt}");
         assert!(said["together"]["rough-smooth"]["sd"].as_f64().unwrap() > 3.0);
         if !is_about_touch {

@@ -30,6 +30,21 @@ fn the_starter_is_listed() {
 }
 
 #[test]
+fn the_list_says_what_depends_on_direction() {
+    let bench = Bench::new();
+    bench.write("layers.json", include_str!("../../crates/formats/tests/golden/library-1.7.json"));
+    let list = bench.json("library list --library layers.json");
+    let [cork, published] = [0, 1].map(|index| list["textures"][index].clone());
+    assert_eq!((&cork["directional"], &published["directional"]), (&true.into(), &false.into()));
+    assert_eq!((&cork["height_map"]["side_mm"], &cork["height_map"]["n"]), (&8.0.into(), &16.into()));
+    assert_eq!(cork["stick_slip"]["static_ratio"], 1.6);
+    assert!((cork["turn_deg"].as_f64().unwrap() - 30.0).abs() < 1e-9);
+    assert_eq!((&published["height_map"], &published["stick_slip"]), (&Value::Null, &Value::Null));
+    let said = bench.run("library list --library layers.json").stdout;
+    assert!(said.contains("directional, height map of 8.0 mm, stick-slip"), "{said}");
+}
+
+#[test]
 fn every_texture_is_itself_at_its_own_place() {
     let bench = Bench::new();
     for texture in bench.json("library list")["textures"].as_array().unwrap() {

@@ -20,14 +20,17 @@ mod evaluate;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod faults;
 mod guide;
+mod height_map;
 mod hostile;
 mod import;
+mod import_directional;
 mod learn;
 mod library;
 mod play;
 mod progress;
 mod project;
 mod render;
+mod shape;
 mod signals;
 mod space;
 mod starter;

@@ -186,6 +186,30 @@ fn landings_in_a_stroke_are_rendered() {
     assert!(rendered(&format!("{steady} --library tapped.json")) == rendered(steady));
 }
 
+/// The impact speed of a stroke table scales the tap transient by the law of Hertz contact.
+#[test]
+fn a_landing_scales_with_the_impact_speed_that_the_table_states() {
+    let bench = Bench::new();
+    let peak = |texture: &str, impact_mm_per_s: &str, rate_hz: u32| {
+        let rows = format!("0,0,0,\n0.2,0,0,{impact_mm_per_s}\n0.201,0,1,\n0.6,0,1,\n");
+        bench.write("landing.csv", format!("t_s,speed,force,speed_normal\n{rows}"));
+        let line = format!("render --texture {texture} --stroke landing.csv --rate {rate_hz} -o landing.wav");
+        bench.json(&line)["peak"].as_f64().unwrap()
+    };
+    // At 200 mm/s, a landing on glass would exceed the ceiling of 1000 m/s².
+    for texture in ["rough-sawn-wood", "open-cell-foam"] {
+        let [slow, stated, fast, unstated] =
+            ["50", "100", "200", ""].map(|impact| peak(texture, impact, 48_000));
+        assert_eq!(stated, unstated, "the usual impact speed is 100 mm/s");
+        for (ratio, strength) in [(slow / stated, 0.5_f64), (fast / stated, 2.0)] {
+            // The samples of a wave of 1 kHz lie within 0.2 % of its peak.
+            assert!((ratio / strength.powf(1.2) - 1.0).abs() < 0.01, "{texture}: {ratio} at {strength}");
+        }
+    }
+    // The sample rate of the models cannot hold the 900 Hz of glass, but the landing remains the hardest.
+    assert!(peak("glass", "100", 1000) > 5.0 * peak("open-cell-foam", "100", 1000));
+}
+
 #[test]
 fn the_same_seed_gives_the_same_file() {
     let bench = Bench::new();

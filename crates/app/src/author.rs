@@ -20,6 +20,7 @@ pub(crate) mod new_texture;
 pub mod pad;
 pub mod prompt;
 pub mod scope;
+pub(crate) mod shape_ui;
 pub(crate) mod solo;
 pub(crate) mod texture_drag;
 pub(crate) mod texture_menu;

@@ -32,7 +32,7 @@ use shagreen_core::space::authoring::{Authored, Authoring, Blending};
 use shagreen_core::space::texture_path::Along;
 use shagreen_core::space::{LabelSource, Space, SpacePoint};
 use shagreen_core::texture::plane::Plane;
-use shagreen_core::units::{Contact, Hertz};
+use shagreen_core::units::{Contact, Hertz, Radians};
 use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::project::{BlendChoice, Project, ProjectLibrary};
 use shagreen_studio::authoring::plane_at;
@@ -266,6 +266,11 @@ impl Session {
     /// Spectra computed in the last frame.
     pub fn spectra(&self) -> &Spectra {
         &self.sound.spectra
+    }
+
+    /// Direction of the lay on the pad, if the audible texture has one at the contact of the spectra.
+    pub fn lay(&self) -> Option<Radians> {
+        if self.authored.is_hidden { None } else { self.sound.heard.lay(self.sound.spectra.contact) }
     }
 
     /// Recently played samples.

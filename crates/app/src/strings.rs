@@ -25,6 +25,7 @@ pub mod path;
 pub mod prompt;
 pub mod rig;
 pub mod scope;
+pub mod shape;
 pub mod signal;
 pub mod signals;
 pub mod stroke;

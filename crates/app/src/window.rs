@@ -40,6 +40,7 @@ use crate::author::context_menu::note_open_menu;
 use crate::author::prompt::Prompts;
 use crate::build::page::BuildPage;
 use crate::command::{Command, FileCommand, pressed};
+use crate::look::icons;
 use crate::look::motion::set_reduced;
 use crate::look::scale::Scale;
 use crate::look::theme::{install, tokens};
@@ -120,6 +121,7 @@ impl Window {
     /// The library cannot be read, or its positions do not form a space.
     pub fn new(ctx: &egui::Context, begin: Begin) -> anyhow::Result<Self> {
         install(ctx);
+        icons::install(ctx);
         let Begin { project, file, take, output, keeping } = begin;
         let mut session = Session::new(project.library.clone())?;
         session.list_outputs(ctx);
@@ -240,6 +242,7 @@ impl Window {
         self.collect_files(&ctx);
         self.collect_photo(&ctx);
         self.collect_prompt(&ctx);
+        self.collect_simulated(&ctx);
         self.collect_strokes();
         self.remember_output();
         let mut commands = if self.sheet.is_open() {

@@ -5,9 +5,11 @@
 
 pub mod ar;
 pub mod arma;
+pub mod contact_patch;
 pub mod dft321;
 pub mod filter;
 pub mod lsf;
 pub mod mfcc;
 pub mod spectrum;
+pub(crate) mod square_transform;
 pub mod threshold;

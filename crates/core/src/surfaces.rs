@@ -4,6 +4,7 @@
 //! starter library ([`starter`]), and attributes predicted from words or pictures ([`prompt`], [`generated`]).
 
 pub mod contact_model;
+pub mod felt_material;
 pub mod generated;
 pub mod height_field;
 pub mod material;
@@ -12,6 +13,8 @@ pub mod prompt;
 pub mod prompt_material;
 pub mod quilt;
 pub mod random_material;
+pub mod random_touch;
 pub mod shading;
 pub mod starter;
+pub mod stroked_grain;
 pub mod touch_words;

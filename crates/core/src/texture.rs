@@ -7,14 +7,18 @@
 
 pub mod blend;
 pub mod boundary;
+pub mod height_map;
 mod limits;
 mod model;
 pub mod patterns;
 pub mod plane;
 pub mod profile;
 pub mod rate;
+mod refit;
 pub mod relief;
 pub mod render;
+pub mod shape;
+pub mod stick_slip;
 pub mod tap;
 
 pub use crate::texture::limits::{

@@ -42,6 +42,11 @@ quantity!(
     Kilograms,
     "kg"
 );
+quantity!(
+    /// An angle in rad.
+    Radians,
+    "rad"
+);
 
 impl MetersPerSecond {
     /// Speed from a value in mm/s, the unit that the command line uses.
@@ -64,6 +69,13 @@ impl Kilograms {
     /// Value in g.
     pub fn g(self) -> f64 {
         self.0 * 1e3
+    }
+}
+
+impl Radians {
+    /// Angle from a value in degrees, the unit that files and the command line use.
+    pub fn from_degrees(degrees: f64) -> Self {
+        Self(degrees.to_radians())
     }
 }
 

@@ -14,6 +14,7 @@ use shagreen_core::texture::rate::at_rate;
 use shagreen_core::texture::{GrainNode, TextureModel};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_synth::contact::Contact as SynthContact;
+use shagreen_synth::direction::Direction;
 use shagreen_synth::lsf::ar_from_lsf;
 
 const STARTER: &str = include_str!("../../../assets/starter/starter.json");
@@ -52,7 +53,8 @@ fn levels_of_the_starter_textures_are_those_of_their_models() {
             let contact = Contact { speed: MetersPerSecond(x * speed_max), force: Newtons(y * force_max) };
             let got = view.evaluate(
                 SynthContact { speed_mps: contact.speed.0 as f32, force_n: contact.force.0 as f32 },
-                &mut 0,
+                Direction::UNKNOWN,
+                &mut [0; 2],
             );
             let mut ar = vec![0.0; model.order()];
             ar_from_lsf(&got.lsf[..model.order()], &mut ar);

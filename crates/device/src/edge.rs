@@ -110,6 +110,7 @@ mod tests {
             seed: 3,
             drive: DriveConfig::proportional(2.0, 1.0),
             channels: ChannelMask::FIRST_TWO,
+            friction: None,
         };
         let (mut handle, engine) = engine::new(config).unwrap();
         let (reporter, monitor) = link();

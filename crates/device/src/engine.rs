@@ -12,6 +12,7 @@
 //! When the handle is dropped, the engine fades to silence, because nobody could mute it any more.
 
 mod config;
+mod friction_channel;
 mod handle;
 mod meter;
 mod place;
@@ -28,13 +29,17 @@ use shagreen_synth::drive::{DriveChain, Driven};
 use shagreen_synth::lift_gate::Touching;
 use shagreen_synth::renderer::{Mix, TextureId};
 use shagreen_synth::stream::Stream;
-use shagreen_synth::tap::{Tap, Taps};
+use shagreen_synth::tap::{Tap, Taps, amplitude_factor};
 use triple_buffer::triple_buffer;
 
 pub use self::config::{ChannelMask, ConfigError, EngineConfig};
+pub use self::friction_channel::{
+    CARRIER_SHARE, FRICTION_CEILING, FULL_FRICTION, FrictionConfig, FrictionWave, LEAST_CARRIER_HZ,
+};
 pub use self::handle::{Handle, LoadError, LoadReason, MixError};
 pub use crate::link::{STALL_SECS, START_SECS};
 
+use self::friction_channel::{FrictionChannel, Noting};
 use self::meter::{Meter, Ramp};
 use self::player::{Landing, Player};
 use self::signal_player::SignalPlayer;
@@ -61,9 +66,10 @@ const TOUCHES: usize = 256;
 pub const LIVE_INPUTS: usize = 2;
 /// Capacity of the scope queue in samples: more than half a second at 48 kHz.
 const SCOPE: usize = 32_768;
-/// Highest amplitude of a tap transient at the usual impact speed, as a share of the range in which the limiter is linear.
-/// A hard surface lands with more than most actuators can do. Left to the limiter, its transient would silence the grain
-/// until the limiter releases. The rest of the range is for the grain and for faster impacts.
+/// Highest amplitude of a tap transient at the reference impact speed, as a share of the range in which the limiter is
+/// linear. A hard surface lands with more than most actuators can do. Left to the limiter, its transient would silence
+/// the grain until the limiter releases. The rest of the range is for the grain and for faster impacts, whose amplitude
+/// is at most the whole range.
 const TAP_SHARE: f32 = 0.7;
 /// Frames rendered at a time.
 const SCRATCH: usize = 256;
@@ -119,7 +125,7 @@ pub struct Engine {
     player: Player,
     taps: Taps,
     tap: Tap,
-    /// Highest amplitude of a tap transient at the usual impact speed, at the output, in m/s².
+    /// Highest amplitude of any tap transient, at the output, in m/s²: the range in which the limiter is linear.
     tap_range_mps2: f32,
     landing: Option<Landing>,
     signal: SignalPlayer,
@@ -131,6 +137,7 @@ pub struct Engine {
     meter: Meter,
     device_rate_hz: f64,
     channels: ChannelMask,
+    friction: Option<FrictionChannel>,
     mix: Mix,
     n_resets: u32,
     edge: Option<CallbackAdapter>,
@@ -169,6 +176,10 @@ pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
     let (scope_in, scope_out) = RingBuffer::new(SCOPE);
     let stream = Stream::new(config.model_rate_hz, config.device_rate_hz, config.seed);
     let fade_frames = (FADE_SECS * f64::from(config.device_rate_hz)) as u32;
+    let chain = DriveChain::new(config.drive, config.device_rate_hz);
+    let rates_hz = (config.model_rate_hz, config.device_rate_hz);
+    let friction =
+        config.friction.map(|friction| FrictionChannel::new(friction, rates_hz, chain.latency_secs()));
     let engine = Engine {
         fresh_stream: stream.clone(),
         stream,
@@ -176,15 +187,16 @@ pub fn new(config: EngineConfig) -> Result<(Handle, Engine), ConfigError> {
         player: Player::new(),
         taps: Taps::new(config.device_rate_hz),
         tap: Tap::SILENT,
-        tap_range_mps2: TAP_SHARE * config.drive.linear_mps2(),
+        tap_range_mps2: config.drive.linear_mps2(),
         landing: None,
         signal: SignalPlayer::new(fade_frames),
-        chain: DriveChain::new(config.drive, config.device_rate_hz),
+        chain,
         gain: Ramp::new(fade_frames),
         unmuted: Ramp::new(fade_frames),
         meter: Meter::new(config.device_rate_hz),
         device_rate_hz: f64::from(config.device_rate_hz),
         channels: config.channels,
+        friction,
         mix: Controls::default().mix,
         n_resets: 0,
         edge: None,
@@ -214,16 +226,22 @@ impl Engine {
         self.take_commands();
         self.take_touches();
         self.follow(orders);
-        let mut scratch = [0.0; SCRATCH];
+        let (mut scratch, mut friction_scratch) = ([0.0; SCRATCH], [0.0; SCRATCH]);
         let n_channels = channels.max(1);
         for block in out.chunks_mut(SCRATCH * n_channels) {
             let frames = block.len() / n_channels;
-            let mono = &mut scratch[..frames];
+            let (mono, friction) = (&mut scratch[..frames], &mut friction_scratch[..frames]);
+            let first_frame = self.stream_frames;
             self.render(mono);
+            let friction_idx = self.render_friction(first_frame, friction);
             let mut frames = block.chunks_exact_mut(n_channels);
-            for (frame, &sample) in frames.by_ref().zip(mono.iter()) {
+            for ((frame, &sample), &level) in frames.by_ref().zip(mono.iter()).zip(friction.iter()) {
                 for (channel_idx, out) in frame.iter_mut().enumerate() {
-                    *out = if self.channels.contains(channel_idx) { sample } else { 0.0 };
+                    *out = match channel_idx {
+                        _ if self.channels.contains(channel_idx) => sample,
+                        _ if friction_idx == Some(channel_idx) => level,
+                        _ => 0.0,
+                    };
                 }
             }
             frames.into_remainder().fill(0.0);
@@ -323,6 +341,9 @@ impl Engine {
             self.stream = self.fresh_stream.clone();
             self.stream.set_mix(self.mix);
             self.player.restart_clock();
+            if let Some(channel) = &mut self.friction {
+                channel.restart();
+            }
             (self.stream_frames, self.landing) = (0, None);
             self.meter.reset();
         }
@@ -331,7 +352,15 @@ impl Engine {
     /// Renders the next frames of the drive signal: textures and tap transients or a signal, then gain, equalizer and
     /// limiters.
     fn render(&mut self, mono: &mut [f32]) {
-        self.stream.process(&self.slots, &mut self.player, mono);
+        let Self { stream, slots, player, friction, mix, .. } = &mut *self;
+        let (slots, mix) = (&*slots, &*mix);
+        match friction {
+            Some(channel) => {
+                let mut noting = Noting { contacts: player, textures: slots, mix, channel };
+                stream.process(slots, &mut noting, mono);
+            }
+            None => stream.process(slots, player, mono),
+        }
         self.add_taps(mono);
         let touching = if self.signal.is_playing() { Touching::NotNeeded } else { self.touching() };
         let driven = self.signal.replace(mono);
@@ -359,6 +388,15 @@ impl Engine {
         }
     }
 
+    /// Renders the friction of a block that begins at a frame of the stream. Returns the index of its channel.
+    fn render_friction(&mut self, first_frame: u64, friction: &mut [f32]) -> Option<usize> {
+        let is_open = self.unmuted.target() > 0.0 && !self.signal.is_playing() && !self.chain.is_tripped();
+        let channel = self.friction.as_mut()?;
+        channel.set_open(is_open);
+        channel.fill(first_frame, friction);
+        Some(channel.channel_idx())
+    }
+
     /// Last contact of the tip, in frames of the stream.
     fn touching(&self) -> Touching {
         let Some((landed_secs, touched_secs)) = self.player.contact_secs() else { return Touching::Never };
@@ -381,7 +419,8 @@ impl Engine {
                 self.taps.add_to(before);
                 // The gain is highest at one end of its ramp. A gain of zero permits any amplitude and silences it.
                 let gain = self.gain.value().max(self.gain.target());
-                self.taps.strike(self.tap.within(self.tap_range_mps2 / gain), landing.strength);
+                let share = TAP_SHARE.min(amplitude_factor(landing.strength).recip() as f32);
+                self.taps.strike(self.tap.within(share * self.tap_range_mps2 / gain), landing.strength);
                 self.landing = None;
                 self.player.note_contact(landing.stream_secs, landing.stream_secs);
                 rest = after;

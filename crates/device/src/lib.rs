@@ -20,6 +20,7 @@
 //!     seed: 1,
 //!     drive: DriveConfig::proportional(20.0, 0.9),
 //!     channels: ChannelMask::FIRST_TWO,
+//!     friction: None,
 //! })?;
 //! // Body of an audio callback. No texture is loaded, so the output is silent.
 //! let mut out = [f32::NAN; 512];

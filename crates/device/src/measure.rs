@@ -96,6 +96,7 @@ pub fn measure<E: Display>(
         seed: 1,
         drive,
         channels,
+        friction: None,
         take_over: false,
     };
     let mut through = |handle: &mut Handle, running: &Running, sensor: &mut dyn Sensor| {

@@ -135,6 +135,7 @@ mod tests {
         seed: 5,
         drive: DriveConfig::proportional(4.0, 1.0),
         channels: ChannelMask::FIRST_TWO,
+        friction: None,
         take_over: false,
     };
 

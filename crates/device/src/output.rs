@@ -172,6 +172,7 @@ pub(crate) mod tests {
         seed: 0,
         drive: DriveConfig::proportional(10.0, 0.9),
         channels: ChannelMask::FIRST_TWO,
+        friction: None,
         take_over: false,
     };
 

@@ -4,7 +4,9 @@ use std::ops::RangeInclusive;
 
 use shagreen_synth::drive::DriveConfig;
 
-use crate::engine::{self, ChannelMask, ConfigError, Engine, EngineConfig, Handle};
+use crate::engine::{
+    self, CARRIER_SHARE, ChannelMask, ConfigError, Engine, EngineConfig, FrictionConfig, FrictionWave, Handle,
+};
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::{Reporter, link};
 
@@ -66,8 +68,31 @@ pub struct OpenOptions {
     pub drive: DriveConfig,
     /// The channels that get the signal; the others are silent.
     pub channels: ChannelMask,
+    /// Channel that gets the friction, for a display that renders it. An audio output without this channel plays the
+    /// vibration alone. A serial receiver has one channel: see [`crate::serial::message::Mode::Friction`].
+    pub friction: Option<FrictionConfig>,
     /// Whether to take the output over from another Shagreen that plays on it.
     pub take_over: bool,
+}
+
+impl OpenOptions {
+    /// Channels of vibration and friction.
+    pub(crate) fn all_channels(&self) -> ChannelMask {
+        let friction = self.friction.map(|friction| ChannelMask::only(friction.channel_idx));
+        friction.map_or(self.channels, |friction| self.channels.and(friction))
+    }
+
+    /// Sample rate of an audio interface without a preferred one, in Hz: [`USUAL_RATE_HZ`], doubled until it carries the
+    /// friction.
+    pub(crate) fn usual_audio_rate_hz(&self) -> u32 {
+        let carrier_hz = match self.friction {
+            Some(FrictionConfig { wave: FrictionWave::Carrier { frequency_hz }, .. }) => frequency_hz,
+            _ => 0.0,
+        };
+        let is_enough = |rate_hz: &u32| CARRIER_SHARE * *rate_hz as f32 >= carrier_hz;
+        let rates_hz = [USUAL_RATE_HZ, 2 * USUAL_RATE_HZ, 4 * USUAL_RATE_HZ];
+        rates_hz.into_iter().find(is_enough).unwrap_or(USUAL_RATE_HZ)
+    }
 }
 
 /// An engine at the device's actual rate, with its handle and the device's side of the status link.
@@ -84,6 +109,7 @@ pub(crate) fn make_engine(options: OpenOptions, rate_hz: u32) -> Result<Made, De
         seed: options.seed,
         drive: options.drive,
         channels: options.channels,
+        friction: options.friction,
     };
     let refuse = |error: ConfigError| {
         DeviceError::new(

@@ -123,6 +123,7 @@ mod tests {
             seed: 1,
             drive: DriveConfig::proportional(20.0, 0.9),
             channels: ChannelMask::FIRST_TWO,
+            friction: None,
         };
         let (mut handle, mut engine) = engine::new(config).unwrap();
         handle.repeat_track(straight(), Repeat::AS_RECORDED).unwrap();

@@ -28,7 +28,7 @@ use rtrb::Consumer;
 pub(crate) use self::connection::SerialOutput;
 use self::line::Line;
 use self::message::Mode;
-use crate::engine::Handle;
+use crate::engine::{ChannelMask, FrictionConfig, FrictionWave, Handle};
 use crate::error::DeviceError;
 use crate::output_options::{Made, OpenOptions, make_engine};
 use crate::running::{Running, RunningFacts};
@@ -43,7 +43,7 @@ pub const USUAL_WATCHDOG_MS: u16 = 50;
 pub struct SerialOptions {
     /// Baud rate; USB CDC ignores it.
     pub baud: u32,
-    /// Mode: rendering by the host or by the receiver.
+    /// Mode: rendering by the host or by the receiver, or friction.
     pub mode: Mode,
     /// Time after the last samples or controls at which the receiver becomes silent, in ms, at least 10.
     pub watchdog_ms: u16,
@@ -76,6 +76,17 @@ pub struct Connection {
     pub heard: Consumer<ReceiverEvent>,
 }
 
+/// Options with the vibration or the friction on the only channel of a receiver.
+fn on_the_channel(options: OpenOptions, mode: Mode) -> OpenOptions {
+    match mode {
+        Mode::Stream | Mode::Control => OpenOptions { friction: None, ..options },
+        Mode::Friction => {
+            let friction = Some(FrictionConfig { channel_idx: 0, wave: FrictionWave::Level });
+            OpenOptions { channels: ChannelMask::NONE, friction, ..options }
+        }
+    }
+}
+
 /// Opens the receiver on a serial port as an output, which is silent until its handle sets controls. The id is one of
 /// [`list_serial_ports`] or any port name; the prefix `serial:` is optional. Blocks until the receiver replies.
 ///
@@ -94,7 +105,7 @@ pub fn open(id: &str, options: OpenOptions, serial: SerialOptions) -> Result<Con
     let receiver = handshake::greet(&id, &mut line, serial)?;
     let plan = negotiation::agree(&id, &receiver, options, serial)?;
     let rate_hz = u32::from(plan.configure.rate_hz);
-    let Made { handle, engine, reporter } = make_engine(options, rate_hz)?;
+    let Made { handle, engine, reporter } = make_engine(on_the_channel(options, serial.mode), rate_hz)?;
     let shared = Arc::clone(&reporter.shared);
     let window_secs = f64::from(plan.configure.window) / f64::from(rate_hz);
     let engine_latency_secs = f64::from(engine.latency_secs());

@@ -1,7 +1,9 @@
 //! A prepared texture that owns its data and lends them to the audio callback.
 
+use shagreen_synth::height_map::HeightMap;
 use shagreen_synth::relief::Relief;
-use shagreen_synth::texture::{self, Excitation, Node, Parts, Texture, Triangle};
+use shagreen_synth::stick_slip::Friction;
+use shagreen_synth::texture::{self, Along, Excitation, Node, Parts, Texture, Triangle};
 
 /// Reason why data do not form a valid texture, with the sizes involved.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -32,6 +34,8 @@ fn explain(reason: texture::TextureError) -> &'static str {
             "there are no or too many triangles, or one refers to a node or neighbor that does not exist"
         }
         texture::TextureError::Excitation => "the number of excitations differs from the number of nodes",
+        texture::TextureError::Along => "a published texture has a grain along its lay",
+        texture::TextureError::Layer => "its rotation or friction is negative or not finite",
         texture::TextureError::Number => "a value is negative or not finite, or frequencies do not ascend",
         _ => "it violates a rule of the renderer",
     }
@@ -48,7 +52,18 @@ pub struct OwnedTexture {
     nodes: Box<[Node]>,
     excitations: Box<[Excitation]>,
     triangles: Box<[Triangle]>,
+    along: Option<OwnedAlong>,
+    turn_rad: f32,
     relief: Option<Box<OwnedRelief>>,
+    height_map: Option<Box<OwnedHeightMap>>,
+    friction: Option<Friction>,
+}
+
+/// Owned data of an [`Along`].
+#[derive(Clone, Debug, PartialEq)]
+struct OwnedAlong {
+    nodes: Box<[Node]>,
+    triangles: Box<[Triangle]>,
 }
 
 /// Owned data of a [`Relief`].
@@ -71,6 +86,32 @@ impl OwnedRelief {
     }
 }
 
+/// Owned data of a [`HeightMap`].
+#[derive(Clone, Debug, PartialEq)]
+struct OwnedHeightMap {
+    side_m: f64,
+    force_n: f32,
+    speed_exponent: f32,
+    n: usize,
+    octaves: Box<[f32]>,
+}
+
+impl OwnedHeightMap {
+    fn of(map: &HeightMap<'_>) -> Self {
+        Self {
+            side_m: map.side_m(),
+            force_n: map.force_n(),
+            speed_exponent: map.speed_exponent(),
+            n: map.n(),
+            octaves: map.octaves().into(),
+        }
+    }
+
+    fn view(&self) -> HeightMap<'_> {
+        HeightMap::checked_before(self.side_m, self.force_n, self.speed_exponent, self.n, &self.octaves)
+    }
+}
+
 impl OwnedTexture {
     /// A copy of prepared data.
     ///
@@ -86,7 +127,11 @@ impl OwnedTexture {
             nodes,
             excitations,
             triangles,
+            along,
+            turn_rad,
             relief,
+            height_map,
+            friction,
         } = parts;
         Texture::new(parts).map_err(|reason| TextureError {
             reason,
@@ -104,7 +149,12 @@ impl OwnedTexture {
             nodes: nodes.into(),
             excitations: excitations.into(),
             triangles: triangles.into(),
+            along: along
+                .map(|along| OwnedAlong { nodes: along.nodes.into(), triangles: along.triangles.into() }),
+            turn_rad,
             relief: relief.as_ref().map(|relief| Box::new(OwnedRelief::of(relief))),
+            height_map: height_map.as_ref().map(|map| Box::new(OwnedHeightMap::of(map))),
+            friction,
         })
     }
 
@@ -124,7 +174,14 @@ impl OwnedTexture {
             nodes: &self.nodes,
             excitations: &self.excitations,
             triangles: &self.triangles,
+            along: self
+                .along
+                .as_ref()
+                .map(|along| Along { nodes: &along.nodes, triangles: &along.triangles }),
+            turn_rad: self.turn_rad,
             relief: self.relief.as_deref().map(OwnedRelief::view),
+            height_map: self.height_map.as_deref().map(OwnedHeightMap::view),
+            friction: self.friction,
         })
     }
 }
@@ -133,8 +190,11 @@ impl OwnedTexture {
 pub(crate) mod tests {
     use super::OwnedTexture;
     use shagreen_synth::contact::Contact;
+    use shagreen_synth::direction::Direction;
+    use shagreen_synth::height_map::{self, HeightMap};
     use shagreen_synth::relief::Relief;
-    use shagreen_synth::texture::{self, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
+    use shagreen_synth::stick_slip::Friction;
+    use shagreen_synth::texture::{self, Along, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, Triangle};
 
     /// White noise of `level_mps2` at 1 m/s and 1 N; the level scales with the smaller of the normalized speed and
     /// force.
@@ -151,18 +211,50 @@ pub(crate) mod tests {
         }
         let relief = Relief::new(1e-5, 1.0, 1024, &octaves).unwrap();
         let silent = white(0.0);
-        let parts = Parts {
-            rate_hz: silent.rate_hz,
-            order: silent.order,
-            ma_order: silent.ma_order,
-            speed_max_mps: silent.speed_max_mps,
-            force_max_n: silent.force_max_n,
-            nodes: &silent.nodes,
-            excitations: &silent.excitations,
-            triangles: &silent.triangles,
-            relief: Some(relief),
-        };
-        OwnedTexture::new(parts).unwrap()
+        OwnedTexture::new(Parts { relief: Some(relief), ..parts_of(&silent) }).unwrap()
+    }
+
+    /// A texture with this kinetic friction coefficient, on which a tip slides steadily.
+    pub(crate) fn rubbed(texture: OwnedTexture, kinetic: f32) -> OwnedTexture {
+        let friction = Some(Friction { kinetic, static_ratio: 1.0, stribeck_speed_mps: 0.02 });
+        OwnedTexture { friction, ..texture }
+    }
+
+    /// The texture with the same grain along its lay, a wavy height map and friction. The numbers are its rotation in rad,
+    /// the height of the waves in m, the kinetic coefficient and the static ratio.
+    pub(crate) fn layered(
+        texture: &OwnedTexture,
+        [turn_rad, height_m, kinetic, static_ratio]: [f32; 4],
+    ) -> Result<OwnedTexture, super::TextureError> {
+        let n = height_map::PATCH_FORCES.len() * height_map::length(16);
+        let octaves: Vec<f32> = (0..n).map(|i| if i % 4 < 2 { height_m } else { -height_m }).collect();
+        let along = Along { nodes: &texture.nodes, triangles: &texture.triangles };
+        OwnedTexture::new(Parts {
+            along: Some(along),
+            turn_rad,
+            height_map: HeightMap::new(0.01, 1.0, 2.0, 16, &octaves).ok(),
+            friction: Some(Friction { kinetic, static_ratio, stribeck_speed_mps: 0.02 }),
+            ..parts_of(texture)
+        })
+    }
+
+    /// Borrowed data of a texture.
+    fn parts_of(texture: &OwnedTexture) -> Parts<'_> {
+        Parts {
+            rate_hz: texture.rate_hz,
+            order: texture.order,
+            ma_order: texture.ma_order,
+            speed_max_mps: texture.speed_max_mps,
+            force_max_n: texture.force_max_n,
+            nodes: &texture.nodes,
+            excitations: &texture.excitations,
+            triangles: &texture.triangles,
+            along: None,
+            turn_rad: texture.turn_rad,
+            relief: None,
+            height_map: None,
+            friction: texture.friction,
+        }
     }
 
     pub(crate) fn white_at(rate_hz: f32, level_mps2: f32) -> Result<OwnedTexture, super::TextureError> {
@@ -195,7 +287,11 @@ pub(crate) mod tests {
             nodes,
             excitations: &[],
             triangles,
+            along: None,
+            turn_rad: 0.0,
             relief: None,
+            height_map: None,
+            friction: None,
         })
     }
 
@@ -204,8 +300,29 @@ pub(crate) mod tests {
         let texture = white(2.0);
         let view = texture.view();
         assert_eq!((view.rate_hz(), view.order()), (1000.0, 2));
-        let at = view.evaluate(Contact { speed_mps: 1.0, force_n: 1.0 }, &mut 0);
-        assert_eq!(at.level_mps2, 2.0);
+        let full = Contact { speed_mps: 1.0, force_n: 1.0 };
+        let level = |view: Texture<'_>, angle_rad: f32| {
+            view.evaluate(full, Direction::at_angle(angle_rad), &mut [0; 2]).level_mps2
+        };
+        assert_eq!((level(view, 0.0), level(view, 1.0)), (2.0, 2.0));
+        // With all layers.
+        let stronger = white(6.0);
+        let along = Along { nodes: &stronger.nodes, triangles: &stronger.triangles };
+        let friction = Friction { kinetic: 0.4, static_ratio: 1.5, stribeck_speed_mps: 0.02 };
+        let octaves = vec![0.5; height_map::PATCH_FORCES.len() * height_map::length(16)];
+        let map = HeightMap::new(0.01, 1.0, 2.0, 16, &octaves).unwrap();
+        let parts = Parts {
+            along: Some(along),
+            turn_rad: 0.5,
+            height_map: Some(map),
+            friction: Some(friction),
+            ..parts_of(&texture)
+        };
+        let layered = OwnedTexture::new(parts).unwrap();
+        let view = layered.view();
+        assert!((level(view, 0.5) - 2.0).abs() < 1e-4);
+        assert!((level(view, 0.5 + core::f32::consts::FRAC_PI_2) - 6.0).abs() < 1e-4);
+        assert_eq!((view.turn_rad(), view.friction(), view.height_map()), (0.5, Some(friction), Some(map)));
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub struct PenSample {
     pub force_n: f64,
     /// Whether the tip touches.
     pub touching: bool,
+    /// Speed of the tip towards the surface in m/s, if known; it counts where a contact begins.
+    pub impact_mps: Option<f64>,
 }
 
 /// Reasons why samples do not form a track.
@@ -88,9 +90,18 @@ pub struct TrackWarnings {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     touches: Box<[Touch]>,
+    onsets: Box<[Onset]>,
     duration_secs: f64,
     /// Imperfections of the samples.
     pub warnings: TrackWarnings,
+}
+
+/// Contact onset of a track.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Onset {
+    /// Time since the start of the track, in seconds.
+    time_secs: f64,
+    impact_mps: Option<f32>,
 }
 
 impl Track {
@@ -121,12 +132,22 @@ impl Track {
             // The first grid point coincides with the first report, so there is always a report before.
             touch_between(&reports[next.saturating_sub(1)], reports.get(next), time_secs, gap_secs)
         });
-        Ok(Self { touches: touches.collect(), duration_secs, warnings })
+        let touches = touches.collect();
+        Ok(Self { touches, onsets: onsets_of(&reports, start_secs, gap_secs), duration_secs, warnings })
     }
 
     /// Duration from the first to the last sample, in seconds.
     pub fn duration_secs(&self) -> f64 {
         self.duration_secs
+    }
+
+    /// Returns the impact speed in m/s of the contact in progress `time_secs` after the start, if the samples state it: the
+    /// highest value of the last sample in the air and the first in contact. Cost: one binary search.
+    pub fn impact_mps_at(&self, time_secs: f64) -> Option<f32> {
+        // Between two points of the grid, a contact begins up to one step before its first report.
+        let latest_secs = time_secs + 1.0 / TRACK_RATE_HZ;
+        let n_begun = self.onsets.partition_point(|onset| onset.time_secs <= latest_secs);
+        self.onsets.get(n_begun.checked_sub(1)?)?.impact_mps
     }
 
     /// Returns the touch `time_secs` after the start, interpolated linearly between grid points; lifted outside the
@@ -154,8 +175,8 @@ impl Track {
 fn check(samples: &[PenSample]) -> Result<(), TrackError> {
     let mut previous_secs = f64::NEG_INFINITY;
     for (index, sample) in samples.iter().enumerate() {
-        let PenSample { time_secs, x_m, y_m, force_n, .. } = *sample;
-        if ![time_secs, x_m, y_m, force_n].iter().all(|x| x.is_finite()) {
+        let PenSample { time_secs, x_m, y_m, force_n, impact_mps, .. } = *sample;
+        if ![time_secs, x_m, y_m, force_n, impact_mps.unwrap_or(0.0)].iter().all(|x| x.is_finite()) {
             return Err(TrackError::NotFinite { index });
         }
         if sample.touching && force_n < 0.0 {
@@ -174,6 +195,7 @@ struct Report {
     time_secs: f64,
     touch: Touch,
     touching: bool,
+    impact_mps: Option<f32>,
 }
 
 /// Returns the gap after which the tip of a recorded stroke is lifted, in seconds: [`LIFT_GAP_SECS`], or
@@ -212,9 +234,31 @@ fn reports_of(samples: &[PenSample], gap_secs: f64) -> (Vec<Report>, TrackWarnin
             Contact::LIFTED
         };
         let touch = Touch { x_m: sample.x_m as f32, y_m: sample.y_m as f32, contact };
-        reports.push(Report { time_secs: sample.time_secs, touch, touching: sample.touching });
+        reports.push(Report {
+            time_secs: sample.time_secs,
+            touch,
+            touching: sample.touching,
+            impact_mps: sample.impact_mps.map(|mps| mps as f32),
+        });
     }
     (reports, warnings)
+}
+
+/// Returns the contact onsets with their impact speeds, at times since the start.
+fn onsets_of(reports: &[Report], start_secs: f64, gap_secs: f64) -> Box<[Onset]> {
+    let mut onsets = Vec::new();
+    let mut last: Option<&Report> = None;
+    for report in reports {
+        let before = last.filter(|before| report.time_secs - before.time_secs <= gap_secs);
+        last = Some(report);
+        if !report.touching || before.is_some_and(|before| before.touching) {
+            continue;
+        }
+        let in_air = before.and_then(|before| before.impact_mps);
+        let impact_mps = [in_air, report.impact_mps].into_iter().flatten().reduce(f32::max);
+        onsets.push(Onset { time_secs: report.time_secs - start_secs, impact_mps });
+    }
+    onsets.into_boxed_slice()
 }
 
 /// Returns the touch at a time between two reports. Reports further apart than the gap belong to two strokes.

@@ -21,7 +21,7 @@ use shagreen_device::synth::tap::Tap;
 use shagreen_device::touch::Touch;
 use shagreen_device::track::{PenSample, Track};
 
-use support::{DRIVE, texture};
+use support::{DRIVE, FRICTION, texture};
 
 #[global_allocator]
 static GATE: AllocDisabler = AllocDisabler;
@@ -35,6 +35,7 @@ fn track() -> Track {
         y_m: 0.0,
         force_n: 0.4,
         touching: i % 5 != 4,
+        impact_mps: Some(0.02 * f64::from(i)),
     };
     Track::new(&(0..20).map(sample).collect::<Vec<_>>()).unwrap()
 }
@@ -45,7 +46,8 @@ fn engine() -> (Handle, Engine) {
         device_rate_hz: 48_000.0,
         seed: 1,
         drive: DRIVE,
-        channels: ChannelMask::FIRST_TWO,
+        channels: ChannelMask::only(0),
+        friction: Some(FRICTION),
     };
     engine::new(config).unwrap()
 }
@@ -170,6 +172,28 @@ fn changes_of_input_and_nonsense_touches() {
         handle.read_scope(&mut [0.0; 2048]);
         assert!(!handle.status().tripped);
     }
+}
+
+/// Slow strokes in all directions, in which the tip sticks, and landings of all speeds.
+#[test]
+fn strokes_that_stick_and_landings() {
+    let (mut handle, mut engine) = engine();
+    let id = handle.load(texture(1.0)).unwrap();
+    handle.set_mix(Mix::solo(id)).unwrap();
+    handle.set_input(Input::Live);
+    handle.set_tap(Tap { frequency_hz: 900.0, decay_per_sec: 150.0, amplitude_mps2: 700.0 });
+    let mut live = handle.take_live_input().unwrap();
+    let mut highest = 0.0_f32;
+    for round in 0..400_u16 {
+        let (sin, cos) = (0.02 * f32::from(round)).sin_cos();
+        let is_down = round % 20 < 15;
+        let contact = Contact { speed_mps: 0.03, force_n: if is_down { 0.8 } else { 0.0 } };
+        let touch = Touch { x_m: 0.01 * cos, y_m: 0.01 * sin, contact };
+        let impact_mps = (round % 3 > 0).then_some(1e-3 * f32::from(round));
+        live.land(touch, Instant::now(), impact_mps).unwrap();
+        highest = highest.max(play(&mut engine, 1));
+    }
+    assert!(highest > 0.1, "{highest}");
 }
 
 #[test]

@@ -29,7 +29,7 @@ use shagreen_device::synth::renderer::Mix;
 use shagreen_device::synth::tap::Tap;
 use shagreen_device::touch::Touch;
 
-use support::{DRIVE, texture};
+use support::{DRIVE, FRICTION, texture};
 
 /// Environment variable with the role of the separate program.
 const ROLE: &str = "SHAGREEN_SYSCALL_ROLE";
@@ -119,7 +119,8 @@ fn playing() -> Work {
         device_rate_hz: 48_000.0,
         seed: 1,
         drive: DRIVE,
-        channels: ChannelMask::FIRST_TWO,
+        channels: ChannelMask::only(0),
+        friction: Some(FRICTION),
     })
     .unwrap();
     let ids: Vec<_> = (0..8).map(|_| handle.load(texture(3.0)).unwrap()).collect();
@@ -146,9 +147,10 @@ fn playing() -> Work {
                 10 => handle.set_input(Input::Live),
                 20 => live.send(Touch::default(), handle_time()).unwrap(),
                 30 => {
+                    // So slow that the tip sticks, after a fast landing.
                     let touch =
-                        Touch { contact: Contact { speed_mps: 0.3, force_n: 0.5 }, ..Touch::default() };
-                    live.send(touch, handle_time()).unwrap();
+                        Touch { contact: Contact { speed_mps: 0.03, force_n: 0.5 }, ..Touch::default() };
+                    live.land(touch, handle_time(), Some(0.2)).unwrap();
                 }
                 40 => {
                     handle.set_drive(Drive { muted: n_blocks % 100 == 40, gain: 1.5 });
@@ -190,7 +192,9 @@ fn the_gate_lets_through_what_calls_nobody_and_ends_what_does() {
 const CALLBACK: &[(&str, &str)] = &[
     ("edge.rs", include_str!("../src/edge.rs")),
     ("engine.rs", include_str!("../src/engine.rs")),
+    ("engine/friction_channel.rs", include_str!("../src/engine/friction_channel.rs")),
     ("engine/meter.rs", include_str!("../src/engine/meter.rs")),
+    ("engine/place.rs", include_str!("../src/engine/place.rs")),
     ("engine/player.rs", include_str!("../src/engine/player.rs")),
     ("engine/signal_player.rs", include_str!("../src/engine/signal_player.rs")),
     ("engine/slots.rs", include_str!("../src/engine/slots.rs")),

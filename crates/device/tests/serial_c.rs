@@ -24,7 +24,7 @@ const CONFIGURE: Configure = Configure {
     fade: 12,
     full_scale_cmps2: 2000,
 };
-const ABOUT: About = About { has_control: true, name: "C receiver", ..About::STREAM };
+const ABOUT: About = About { has_control: true, has_friction: true, name: "C receiver", ..About::STREAM };
 
 /// Received bytes, followed by ticks of the sample clock.
 struct Step {
@@ -210,7 +210,7 @@ fn both_say_and_play_the_same() {
     let Some(program) = compile(folder.path()) else { return };
     let mut n_heard_of_all = 0;
     for seed in 1..=30 {
-        for mode in [Mode::Stream, Mode::Control] {
+        for mode in [Mode::Stream, Mode::Control, Mode::Friction] {
             for percent in [0, 3, 20] {
                 let steps = steps(seed, mode, percent);
                 let (expected, n_heard) = played_by_rust(&steps);

@@ -16,7 +16,7 @@
 
 use serde::Deserialize;
 use shagreen_core::actuator::{
-    Actuator, ActuatorError, Calibrated, Limits, Measured, Physical, Response, USUAL_LOWEST,
+    Actuator, ActuatorError, Calibrated, FrictionDisplay, Limits, Measured, Physical, Response, USUAL_LOWEST,
     USUAL_THERMAL_SECS, validate,
 };
 use shagreen_core::units::{Hertz, Kilograms, Volts};
@@ -26,8 +26,10 @@ use crate::parser_words::plain;
 
 /// Value of the `format` key.
 pub const FORMAT: &str = "shagreen-actuator";
-/// Version of the file format.
+/// Version of a profile without a friction display.
 pub const VERSION: &str = "1.0";
+/// Version of a profile with a friction display. Programs that read [`VERSION`] only would ignore the display.
+pub const VERSION_WITH_FRICTION: &str = "1.1";
 
 /// The built-in profiles, in list order.
 const BUILT_IN: [&str; 4] = [
@@ -63,7 +65,8 @@ pub enum ActuatorFileError {
     },
     /// The file has an unsupported version.
     #[error(
-        "the actuator profile has version {found}, but this program reads version {VERSION}; use a newer version of Shagreen"
+        "the actuator profile has version {found}, but this program reads versions {VERSION} and \
+         {VERSION_WITH_FRICTION}; use a newer version of Shagreen"
     )]
     Version {
         /// Value of the `version` key.
@@ -109,6 +112,14 @@ struct ActuatorV1 {
     #[serde(default)]
     physical: PhysicalV1,
     calibration: Option<CalibrationV1>,
+    friction: Option<FrictionV1>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FrictionV1 {
+    carrier_hz: f64,
+    channel: u16,
 }
 
 #[derive(Deserialize)]
@@ -164,7 +175,7 @@ pub fn read_actuator(bytes: &[u8]) -> Result<Actuator, ActuatorFileError> {
     if header.format != FORMAT {
         return Err(ActuatorFileError::Format { found: header.format });
     }
-    if header.version != VERSION {
+    if ![VERSION, VERSION_WITH_FRICTION].contains(&header.version.as_str()) {
         return Err(ActuatorFileError::Version { found: header.version });
     }
     let wire: ActuatorV1 = toml::from_str(text).map_err(damaged)?;
@@ -192,7 +203,8 @@ pub fn write_actuator(actuator: &Actuator) -> Vec<u8> {
     let volts = |volts: Option<Volts>| volts.map(|volts| volts.0);
     let grams = |mass: Option<Kilograms>| mass.map(|mass| exact(mass.0, 1e3, |g| Kilograms::from_g(g).0));
     let Actuator { measured, limits, physical, calibrated, .. } = actuator;
-    let mut lines = vec![format!("format = {}", quoted(FORMAT)), format!("version = {}", quoted(VERSION))];
+    let version = if actuator.friction.is_some() { VERSION_WITH_FRICTION } else { VERSION };
+    let mut lines = vec![format!("format = {}", quoted(FORMAT)), format!("version = {}", quoted(version))];
     let texts = [
         ("id", &actuator.id),
         ("name", &actuator.name),
@@ -253,6 +265,11 @@ pub fn write_actuator(actuator: &Actuator) -> Vec<u8> {
             lines.extend([String::new(), format!("[{table}]")]);
             lines.extend(told);
         }
+    }
+    if let Some(FrictionDisplay { carrier, channel }) = actuator.friction {
+        let entries = [format!("carrier_hz = {:?}", carrier.0), format!("channel = {channel}")];
+        lines.extend([String::new(), "[friction]".to_owned()]);
+        lines.extend(entries);
     }
     lines.push(String::new());
     lines.join("\n").into_bytes()
@@ -321,12 +338,13 @@ fn actuator(wire: ActuatorV1) -> Result<Actuator, ActuatorError> {
             gain_error_mps2_per_v: c.gain_error_mps2_per_v,
             full_scale: Volts(c.full_scale_v),
         }),
+        friction: wire.friction.map(|f| FrictionDisplay { carrier: Hertz(f.carrier_hz), channel: f.channel }),
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{BUILT_IN, Calibrated, built_in_actuators, read_actuator, write_actuator};
+    use super::{BUILT_IN, Calibrated, FrictionDisplay, built_in_actuators, read_actuator, write_actuator};
     use shagreen_core::actuator::{DataSheet, Mechanics};
     use shagreen_core::units::{Hertz, Kilograms, Volts};
 
@@ -396,7 +414,23 @@ mod tests {
                 full_scale: Volts(2.0),
             });
             assert_eq!(read_actuator(&write_actuator(&actuator)).unwrap(), actuator);
+            actuator.friction = Some(FrictionDisplay { carrier: Hertz(1.0e3 / 7.0), channel: 3 });
+            let written = write_actuator(&actuator);
+            assert_eq!(read_actuator(&written).unwrap(), actuator);
+            assert!(String::from_utf8(written).unwrap().contains("version = \"1.1\""));
         }
+    }
+
+    #[test]
+    fn a_friction_display_is_read_and_checked() {
+        let with =
+            |table: &str| format!("{}\n[friction]\n{table}\n", BUILT_IN[0]).replace("\"1.0\"", "\"1.1\"");
+        let read = read_actuator(with("carrier_hz = 120\nchannel = 2").as_bytes()).unwrap();
+        assert_eq!(read.friction, Some(FrictionDisplay { carrier: Hertz(120.0), channel: 2 }));
+        check_error(&with("carrier_hz = 120"), "the field `channel` is missing");
+        check_error(&with("carrier_hz = 120\nchannel = 2.5"), "at line");
+        check_error(&with("carrier_hz = 5\nchannel = 2"), "the carrier of the friction display in Hz is 5");
+        check_error(&with("carrier_hz = 120\nchannel = 2\nvolts = 9"), "the field `volts` is unknown");
     }
 
     #[test]

@@ -38,6 +38,7 @@ pub mod fit_report;
 pub mod foreign_file;
 pub mod gallery;
 pub mod hatt;
+pub mod height_picture;
 pub mod hid_text;
 pub mod imported;
 mod label_source_text;

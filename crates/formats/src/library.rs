@@ -55,6 +55,20 @@
 //!
 //! Version 1.6 added the label source `estimated`: a position estimated from words, a picture or a recording.
 //!
+//! Version 1.7 added, to a texture and to the keys of its path, what depends on the direction of the stroke, and
+//! stick-slip friction. A texture has its own axes: its lay, the direction of its grain or brushing, runs along y, as in
+//! its picture.
+//!
+//! - `"anchors_along": […]`: anchors as in `anchors`, for strokes along the lay; `anchors` are then for strokes across it. They
+//!   have the speeds, forces and order of `anchors`, in the same sequence.
+//! - `"turn_deg": 30.0`: angle of the texture's x axis on the pad in degrees, counterclockwise.
+//! - `"height_map": {"side_mm": 20.0, "n": 256, "force_n": 1.0, "speed_exponent": 2.0, "patch_radius_mm": 0.2,
+//!   "step_m": 1e-9, "base64": "…"}`: one square tile of `n` by `n` heights, row by row from y = 0, which repeats in both
+//!   directions. Heights are integers of 16 bits, little endian, in steps of `step_m`. The acceleration grows with this
+//!   power of the tip speed; at the force `force_n`, the contact patch has the radius `patch_radius_mm`.
+//! - `"stick_slip": {"static_ratio": 1.6, "stribeck_mm_per_s": 20.0}`: static friction relative to the kinetic friction
+//!   `mu`, and Stribeck speed.
+//!
 //! A file states the lowest version that has all features it uses.
 //!
 //! Unknown fields are kept in [`Unknown`] and written back. A file of a higher major version is rejected.
@@ -63,13 +77,16 @@ mod anchors;
 pub(crate) mod attributes;
 mod authored;
 mod error;
+mod height_map;
 mod id;
 pub(crate) mod numbers;
 mod path;
 mod provenance;
 pub(crate) mod read;
 mod relief;
+mod stick_slip;
 mod tap;
+mod turn;
 pub(crate) mod v1;
 pub(crate) mod write;
 
@@ -96,7 +113,7 @@ pub const FORMAT: &str = "shagreen-library";
 /// Supported major version; files of another one are rejected.
 pub const VERSION_MAJOR: u32 = 1;
 /// Highest minor version that is written; a newer one may add fields.
-pub const VERSION_MINOR: u32 = 6;
+pub const VERSION_MINOR: u32 = 7;
 /// Default names of the two axes of a space.
 pub const USUAL_AXES: [&str; 2] = ["rough-smooth", "hard-soft"];
 
@@ -206,10 +223,14 @@ pub struct Unknown {
     tap: Map<String, Value>,
     path: Map<String, Value>,
     relief: Map<String, Value>,
+    height_map: Map<String, Value>,
+    stick_slip: Map<String, Value>,
     /// Empty, or one per key of the path.
     keys: Vec<UnknownOfKey>,
     /// Empty, or one per node of the model.
     anchors: Vec<Map<String, Value>>,
+    /// Empty, or one per node of the grain along the lay.
+    along: Vec<Map<String, Value>>,
 }
 
 /// Unknown fields of a path key, by the object that contains them.
@@ -218,8 +239,12 @@ struct UnknownOfKey {
     key: Map<String, Value>,
     tap: Map<String, Value>,
     relief: Map<String, Value>,
+    height_map: Map<String, Value>,
+    stick_slip: Map<String, Value>,
     /// Empty, or one per node of the model.
     anchors: Vec<Map<String, Value>>,
+    /// Empty, or one per node of the grain along the lay.
+    along: Vec<Map<String, Value>>,
 }
 
 impl TextureEntry {

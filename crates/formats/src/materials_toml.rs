@@ -7,6 +7,8 @@ use std::collections::HashSet;
 
 use serde::Deserialize;
 use shagreen_core::surfaces::material::{Bumps, Material, MaterialError, Pattern, PatternKind, validate};
+use shagreen_core::texture::stick_slip::StickSlip;
+use shagreen_core::units::MetersPerSecond;
 
 use crate::parser_words::plain;
 
@@ -74,6 +76,7 @@ struct MaterialV1 {
     bumps: Vec<BumpsV1>,
     friction_coefficient: f64,
     friction_heterogeneity: f64,
+    stick_slip: Option<StickSlipV1>,
     patch_share: f64,
     contact_damping_ratio: f64,
     load_exponent: f64,
@@ -115,6 +118,13 @@ struct BumpsV1 {
     elongation: f64,
     spread_rad: f64,
     density_per_m2: f64,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct StickSlipV1 {
+    static_ratio: f64,
+    stribeck_speed_mps: f64,
 }
 
 /// Reads materials.
@@ -164,6 +174,10 @@ fn material(wire: MaterialV1) -> Material {
         bumps: wire.bumps.iter().map(bumps).collect(),
         friction_coefficient: wire.friction_coefficient,
         friction_heterogeneity: wire.friction_heterogeneity,
+        stick_slip: wire.stick_slip.map(|StickSlipV1 { static_ratio, stribeck_speed_mps }| StickSlip {
+            static_ratio,
+            stribeck_speed: MetersPerSecond(stribeck_speed_mps),
+        }),
         patch_share: wire.patch_share,
         contact_damping_ratio: wire.contact_damping_ratio,
         load_exponent: wire.load_exponent,
@@ -209,6 +223,8 @@ fn bumps(wire: &BumpsV1) -> Bumps {
 mod tests {
     use super::read_materials;
     use shagreen_core::surfaces::material::PatternKind;
+    use shagreen_core::texture::stick_slip::StickSlip;
+    use shagreen_core::units::MetersPerSecond;
 
     const STARTER: &str = include_str!("../../../assets/starter/materials.toml");
 
@@ -227,6 +243,7 @@ pattern = { kind = "plain-weave", period_m = 1e-3, amplitude_m = 1e-6, jitter = 
 bumps = [{ height_m = 1e-6, radius_m = 1e-4, elongation = 1.0, spread_rad = 0.0, density_per_m2 = 1e5 }]
 friction_coefficient = 0.15
 friction_heterogeneity = 0.1
+stick_slip = { static_ratio = 1.4, stribeck_speed_mps = 0.02 }
 patch_share = 1.0
 contact_damping_ratio = 0.15
 load_exponent = 0.05
@@ -257,12 +274,17 @@ mottle_scale_m = 5e-3
         assert_eq!((glass.id.as_str(), glass.youngs_modulus_pa, glass.peak_srgb), ("glass", 6e10, [4, 5, 6]));
         assert_eq!(glass.pattern.unwrap().kind, PatternKind::PlainWeave);
         assert_eq!(glass.bumps[0].density_per_m2, 1e5);
+        let stick_slip = StickSlip { static_ratio: 1.4, stribeck_speed: MetersPerSecond(0.02) };
+        assert_eq!(glass.stick_slip, Some(stick_slip));
+        let without = SMALL.replace("stick_slip = {", "# stick_slip = {");
+        assert_eq!(read_materials(without.as_bytes()).unwrap().materials[0].stick_slip, None);
     }
 
     #[test]
     fn what_is_wrong_is_named_with_its_place() {
         check_error(&SMALL.replace("gloss = ", "glos = "), "glos");
         check_error(&SMALL.replace("hurst = 0.8", "hurst = nan"), "hurst of glass is NaN");
+        check_error(&SMALL.replace("ratio = 1.4", "ratio = 0.5"), "stick_slip.static_ratio of glass is 0.5");
         check_error(&format!("{SMALL}{}", &SMALL[SMALL.find("[[").unwrap()..]), "two materials");
         check_error("seed = 1", "no materials");
         check_error("seed = 1\n[[material]]\nid = 5", "line 3");

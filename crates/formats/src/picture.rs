@@ -88,6 +88,19 @@ pub struct Rgb {
     pub pixels: Vec<u8>,
 }
 
+/// Brightness of the pixels of a photo or a height map.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Brightness {
+    /// Width in pixels.
+    pub width: usize,
+    /// Height in pixels.
+    pub height: usize,
+    /// 0 (black) to 65,535 (white), row by row from the upper left.
+    pub values: Vec<u16>,
+    /// Whether the file stores colors, as photos do, and not gray values.
+    pub is_colored: bool,
+}
+
 impl Rgb {
     /// Converts to a surface picture for shading; `millimeters` is the width of the surface patch.
     pub fn into_surface(self, millimeters: f64) -> Surface {
@@ -201,6 +214,18 @@ pub fn brightness_row(bytes: &[u8], row: Option<u32>) -> Result<Vec<f64>, Pictur
     }
     let pixel = |x: u32| f64::from(photo.get_pixel(x, row).0[0]) / f64::from(u16::MAX);
     Ok((0..photo.width()).map(pixel).collect())
+}
+
+/// Returns the brightness of all pixels of a photo or a height map, upright, with the resolution of the file.
+///
+/// # Errors
+/// As [`of_photo`].
+pub fn brightness(bytes: &[u8]) -> Result<Brightness, PictureError> {
+    let photo = upright(bytes)?;
+    let is_colored = photo.color().has_color();
+    let gray = photo.into_luma16();
+    let (width, height) = (gray.width() as usize, gray.height() as usize);
+    Ok(Brightness { width, height, values: gray.into_raw(), is_colored })
 }
 
 /// Returns whether bytes begin like a JPEG or PNG.

@@ -3,7 +3,7 @@
 //! ```json
 //! {
 //!   "format": "shagreen-project",
-//!   "version": "1.0",
+//!   "version": "1.1",
 //!   "units": {"length": "mm", "time": "s"},
 //!   "created_by": "…", "notes": "…",
 //!   "library": {"built_in": "starter"},
@@ -14,6 +14,8 @@
 //!     "key": 1, "name": "Oak copy", "color": 3, "notes": "…", "tags": ["wood"],
 //!     "rough_smooth": 41.5, "hard_soft": 70.0,
 //!     "blend": {"mode": "field", "outside": "clamped", "weights": "barycentric", "locked": ["oak"]},
+//!     "shape": {"level_db": -3.0, "grain": 1.2, "brightness_db_per_octave": 1.0, "softness": 2.0, "friction": 0.5,
+//!       "relief": 1.5, "direction_deg": 30.0},
 //!     "path": {"along": "distance", "at_end": "turn", "length_mm": 200.0, "length_s": 3.0, "points": [[41.5, 70.0], …]},
 //!     "picture": {"media_type": "image/jpeg", "width": 256, "height": 256, "millimeters": 20.0, "base64": "…"}
 //!   }],
@@ -28,6 +30,7 @@
 //! - `joined` are textures added to those of the library, in the library format. `renamed`, `starred`, `locked` and
 //!   `solo` refer to textures by their identifiers.
 //! - `locked` are the pinned textures of the interpolation mode Field.
+//! - `shape` has the values of [`Shape`] that are not neutral. A project with shapes has the version 1.1, others 1.0.
 //! - `snapshots` are saved states of authored textures.
 //! - `space` is a space that was built in this project; it gives the textures their positions, in the library format.
 //!
@@ -37,6 +40,7 @@
 pub mod clipboard;
 mod error;
 mod read;
+mod shape;
 mod v1;
 mod write;
 
@@ -49,6 +53,7 @@ use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Blending, Outside, Weights};
 use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::shape::Shape;
 
 use crate::built_in::BuiltIn;
 use crate::library::{Library, Provenance, TextureEntry};
@@ -64,8 +69,8 @@ pub use crate::project::write::write_project;
 pub const FORMAT: &str = "shagreen-project";
 /// Supported major version; files of another one are rejected.
 pub const VERSION_MAJOR: u32 = 1;
-/// Minor version that is written; a newer one may add fields.
-pub const VERSION_MINOR: u32 = 0;
+/// Highest minor version that is read completely; a newer one may add fields.
+pub const VERSION_MINOR: u32 = 1;
 /// File name extension.
 pub const EXTENSION: &str = "shagreen";
 /// Number of colors for authored textures.
@@ -166,6 +171,8 @@ pub struct AuthoredTexture {
     pub at: SpacePoint,
     /// Interpolation options at that position.
     pub blend: BlendChoice,
+    /// Shape of the interpolated texture.
+    pub shape: Shape,
     /// Drawn path through the space that it can follow along a stroke.
     pub path: Option<UserPath>,
     /// Its own picture; `None` derives one from the pictures of its neighbors.
@@ -217,7 +224,7 @@ impl BlendChoice {
 impl AuthoredTexture {
     /// Returns whether both textures give the same signal, regardless of name and appearance.
     pub fn sounds_like(&self, other: &Self) -> bool {
-        (self.at, &self.blend, &self.path) == (other.at, &other.blend, &other.path)
+        (self.at, &self.blend, self.shape, &self.path) == (other.at, &other.blend, other.shape, &other.path)
     }
 
     /// Creates a texture at the center of the space, with the first color.
@@ -230,6 +237,7 @@ impl AuthoredTexture {
             tags: Vec::new(),
             at: SpacePoint { rough_smooth: 50.0, hard_soft: 50.0 },
             blend: BlendChoice::default(),
+            shape: Shape::default(),
             path: None,
             picture: None,
             unknown: Map::new(),

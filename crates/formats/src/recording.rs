@@ -5,6 +5,7 @@
 //! [`ColumnMap`], from the window, the command line or a file ([`crate::map_toml`]).
 
 mod column_map;
+pub mod directional;
 mod from_table;
 mod from_wav;
 mod infer_units;

@@ -13,6 +13,8 @@ pub struct PenSample {
     pub press: f64,
     /// Whether the tip is in contact.
     pub touching: bool,
+    /// Speed towards the surface in m/s, non-negative, if known; it counts where a contact begins.
+    pub impact_mps: Option<f64>,
 }
 
 /// Unit of [`PenSample::press`].
@@ -33,6 +35,8 @@ pub struct TimedContact {
     pub speed_mps: f64,
     /// Normal force in N, non-negative; zero while the tip is lifted.
     pub force_n: f64,
+    /// Speed towards the surface in m/s, non-negative, if known; it counts where a contact begins.
+    pub impact_mps: Option<f64>,
 }
 
 /// A stroke.

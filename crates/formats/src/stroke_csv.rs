@@ -2,7 +2,8 @@
 //!
 //! With a header, columns are found by name: `t` or `time` (with `ms` or `s`), then either `x` and `y` in mm with
 //! `pressure` (0..1) or `force` in N, or `speed` in mm/s with `force` in N. `touching` (0 or 1) may state contact;
-//! otherwise the tip is lifted at zero pressure or force. Without a header, three columns are time, speed and force,
+//! otherwise the tip is lifted at zero pressure or force. `speed_normal` in mm/s may state how fast the tip lands; an
+//! empty field of this column is unknown. Without a header, three columns are time, speed and force,
 //! and four are time, x, y and force. Decimal commas are accepted, in quotes if commas separate the columns.
 
 mod columns;
@@ -87,6 +88,7 @@ struct Row {
     time: f64,
     values: [f64; 3],
     touching: Option<bool>,
+    impact_mps: Option<f64>,
 }
 
 /// Reads a stroke. Assumptions about a missing header or unit are warnings.
@@ -121,6 +123,7 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
                     time_secs: time_secs(row),
                     speed_mps: 1e-3 * row.values[0],
                     force_n: if row.touching == Some(false) { 0.0 } else { row.values[1] },
+                    impact_mps: row.impact_mps,
                 })
                 .collect(),
         ),
@@ -131,6 +134,7 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
                 y_m: 1e-3 * row.values[1],
                 press: row.values[2],
                 touching: row.touching.unwrap_or(row.values[2] > 0.0),
+                impact_mps: row.impact_mps,
             };
             Stroke::Pen { samples: rows.iter().map(sample).collect(), press_unit }
         }
@@ -146,8 +150,8 @@ pub fn is_stroke_table(head: &[u8]) -> bool {
     first.is_some_and(|first| Columns::from_header(&first).is_ok_and(|columns| columns.are_of_a_stroke_only))
 }
 
-/// Writes a pen stroke as a table that [`read_stroke_csv`] reads: `t_s`, `x_mm`, `y_mm`, `pressure` or `force_n`, and
-/// `touching`. Time starts at zero. Of several samples at one time only the last is written, because the reader
+/// Writes a pen stroke as a table that [`read_stroke_csv`] reads: `t_s`, `x_mm`, `y_mm`, `pressure` or `force_n`,
+/// `touching`, and `speed_normal` if it is known of any sample. Time starts at zero. Of several samples at one time only the last is written, because the reader
 /// requires increasing times.
 pub fn stroke_csv(samples: &[PenSample], press_unit: PressUnit) -> String {
     let press = match press_unit {
@@ -155,15 +159,24 @@ pub fn stroke_csv(samples: &[PenSample], press_unit: PressUnit) -> String {
         PressUnit::Newtons => "force_n",
     };
     let start_secs = samples.first().map_or(0.0, |sample| sample.time_secs);
-    let mut text = format!("t_s,x_mm,y_mm,{press},touching\n");
+    let has_impacts = samples.iter().any(|sample| sample.impact_mps.is_some());
+    let speed_normal = if has_impacts { ",speed_normal" } else { "" };
+    let mut text = format!("t_s,x_mm,y_mm,{press},touching{speed_normal}\n");
     for (index, sample) in samples.iter().enumerate() {
         if samples.get(index + 1).is_some_and(|next| next.time_secs <= sample.time_secs) {
             continue;
         }
-        let PenSample { time_secs, x_m, y_m, press, touching } = sample;
+        let PenSample { time_secs, x_m, y_m, press, touching, impact_mps } = sample;
         let (time_secs, x_mm, y_mm) = (time_secs - start_secs, 1e3 * x_m, 1e3 * y_m);
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{time_secs},{x_mm},{y_mm},{press},{}", u8::from(*touching));
+        let _ = write!(text, "{time_secs},{x_mm},{y_mm},{press},{}", u8::from(*touching));
+        if has_impacts {
+            text.push(',');
+            if let Some(impact_mps) = impact_mps {
+                let _ = write!(text, "{}", 1e3 * impact_mps);
+            }
+        }
+        text.push('\n');
     }
     text
 }
@@ -201,7 +214,20 @@ fn parse_row(
         }
     }
     let touching = columns.touching.map(|index| value_of("touching", index)).transpose()?;
-    Ok(Row { line, time, values, touching: touching.map(|value| value != 0.0) })
+    let is_stated = |index: &usize| record.get(*index).is_some_and(|field| !field.trim().is_empty());
+    let column = "speed_normal";
+    let speed_normal =
+        columns.speed_normal.filter(is_stated).map(|index| value_of(column, index)).transpose()?;
+    if let Some(value) = speed_normal.filter(|value| *value < 0.0) {
+        return Err(StrokeCsvError::Range { line, column, value, needs: "at least 0" });
+    }
+    Ok(Row {
+        line,
+        time,
+        values,
+        touching: touching.map(|value| value != 0.0),
+        impact_mps: speed_normal.map(|mm_per_s| 1e-3 * mm_per_s),
+    })
 }
 
 /// Returns the time unit in seconds, after checking that time increases.

@@ -238,6 +238,7 @@ pub fn pen_samples(
         y_m: 1e-3 * row.y * mm_per_unit,
         press: row.pressure / full_scale,
         touching: row.touching,
+        impact_mps: None,
     };
     let mut warnings = Vec::new();
     let highest = recording.pressure_max();

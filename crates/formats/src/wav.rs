@@ -49,6 +49,9 @@ pub struct SidecarV1 {
     pub extrapolated: bool,
     /// Interpolation mode of the parent textures.
     pub blend: String,
+    /// Shape of the texture, as on the command line; absent if it is neutral.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub shape: Option<String>,
     /// The textures that were interpolated.
     pub parents: Vec<ParentV1>,
     /// Name of the library.
@@ -83,6 +86,7 @@ impl SidecarV1 {
             clamped: false,
             extrapolated: false,
             blend: String::new(),
+            shape: None,
             parents: Vec::new(),
             library: String::new(),
             label_source: None,
@@ -242,6 +246,7 @@ mod tests {
             clamped: false,
             extrapolated: false,
             blend: "shared".into(),
+            shape: None,
             parents: vec![ParentV1 { id: "cork".into(), weight: 1.0, licence: "CC0-1.0".into() }],
             library: "Starter".into(),
             label_source: Some("physical".into()),

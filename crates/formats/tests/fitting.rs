@@ -36,9 +36,9 @@ fn hand(t: f64) -> Contact {
     Contact { speed: MetersPerSecond(top_mps * phase.sin().abs()), force: Newtons(force_n) }
 }
 
-/// Renders simulated strokes on a texture.
+/// Renders simulated strokes on a texture. Without stick-slip, which a fit of the grain cannot know.
 fn strokes(model: &TextureModel, seed: u64) -> Recording {
-    let prepared = Plane::new(model).prepare();
+    let prepared = Plane::new(&model.clone().with_stick_slip(None)).prepare();
     let plan =
         RenderPlan { parents: &[(&prepared, 1.0)], mode: Mode::Shared, rate: RATE, seconds: SECONDS, seed };
     let acceleration_mps2: Vec<f64> = render(&plan, &mut hand).unwrap().into_iter().map(f64::from).collect();

@@ -7,9 +7,10 @@
 use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
 use shagreen_core::space::texture_path::{Along, AtEnd};
+use shagreen_core::texture::stick_slip::StickSlip;
 use shagreen_core::texture::tap::Tap;
 use shagreen_core::texture::{Grain, Interpolation, TextureModel};
-use shagreen_core::units::Hertz;
+use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::picture::{PictureFormat, decode};
 
@@ -20,6 +21,7 @@ const V1_3: &[u8] = include_bytes!("golden/library-1.3.json");
 const V1_4: &[u8] = include_bytes!("golden/library-1.4.json");
 const V1_5: &[u8] = include_bytes!("golden/library-1.5.json");
 const V1_6: &[u8] = include_bytes!("golden/library-1.6.json");
+const V1_7: &[u8] = include_bytes!("golden/library-1.7.json");
 
 /// Reads a library without warnings.
 fn read(bytes: &[u8]) -> Library {
@@ -189,6 +191,93 @@ fn version_1_6() {
 }
 
 #[test]
+fn version_1_7() {
+    let library = read(V1_7);
+    check_head(&library, "1.7");
+    check_cork(&library.textures[0]);
+    let model = &library.textures[0].model;
+    let along: Vec<_> = model
+        .along()
+        .unwrap()
+        .iter()
+        .map(|n| (n.speed.mm_per_s(), n.force.0, n.level_mps2, n.lsf[0]))
+        .collect();
+    assert_eq!(along, [(30.0, 0.15, 0.015_625, 0.5), (70.0, 1.5, 0.25, 0.25)]);
+    let stick_slip = StickSlip { static_ratio: 1.6, stribeck_speed: MetersPerSecond::from_mm_per_s(20.0) };
+    assert_eq!(model.stick_slip(), Some(stick_slip));
+    assert!((model.turn_rad() - std::f64::consts::FRAC_PI_6).abs() < 1e-15);
+    let map = model.height_map().unwrap();
+    assert_eq!((map.n(), map.side_m()), (16, 1e-3 * 8.0));
+    let options = map.options();
+    assert_eq!((options.force, options.speed_exponent), (Newtons(1.5), 1.75));
+    assert_eq!(options.patch_radius_m, 1e-3 * 0.25);
+    // Row 0 is a cosine over the side, and row 1 has half of its height and the opposite sign.
+    for (index, steps) in [(0, 32_767.0), (1, 30_273.0), (8, -32_767.0), (16, -16_384.0), (17, -15_136.0)] {
+        let height_m = map.heights_m()[index];
+        assert!((height_m - 1e-9 * steps).abs() < 1e-15, "{height_m:e} at {index}");
+    }
+    let key = &library.textures[0].path.as_ref().unwrap().keys()[1].model;
+    assert_eq!(key.along().unwrap()[0].level_mps2, 0.0625);
+    assert_eq!(key.stick_slip().unwrap().static_ratio, 1.25);
+    assert!((key.turn_rad() + std::f64::consts::FRAC_PI_4).abs() < 1e-15);
+    assert_eq!(key.height_map().unwrap().side_m(), 1e-3 * 4.0);
+    assert!(library.textures[1..].iter().all(|texture| texture.model.along().is_none()));
+}
+
+#[test]
+fn layers_that_are_none_are_refused() {
+    let edits: [(&str, Value, &str); 15] = [
+        ("/anchors_along/0/level_mps2", Value::Null, "entry 0 of `anchors_along`"),
+        (
+            "/anchors_along/0/level_mps2",
+            json!(-1.0),
+            "the `anchors_along` of texture \"cork\" is invalid: level",
+        ),
+        ("/anchors_along/1/speed_mm_per_s", json!(71.0), "of node 1 is 0.071"),
+        ("/anchors_along/1/lsf", json!([0.5, 1.0]), "the `anchors_along` of texture"),
+        ("/anchors_along/1/lsf", json!(vec![0.5; 200]), "the `anchors_along` of texture"),
+        ("/anchors_along", json!([]), "along the lay has 0 nodes"),
+        ("/turn_deg", json!(361.0), "`turn_deg` 361"),
+        ("/stick_slip/static_ratio", json!(0.5), "`stick_slip`"),
+        ("/stick_slip/stribeck_mm_per_s", json!(-20.0), "`stick_slip`"),
+        ("/height_map/n", json!(17), "512 bytes, but 17 by 17 heights have 578"),
+        ("/height_map/n", json!(u64::MAX >> 12), "may be at most 512"),
+        ("/height_map/step_m", json!(0.0), "its step_m is 0e0 m"),
+        ("/height_map/base64", json!("!"), "base64 is damaged"),
+        ("/height_map/side_mm", json!(0.0), "`height_map`"),
+        ("/height_map/force_n", json!(-1.0), "`height_map`"),
+    ];
+    for (pointer, to, words) in edits {
+        let mut value: Value = serde_json::from_slice(V1_7).unwrap();
+        *value["textures"][0].pointer_mut(pointer).unwrap() = to;
+        let message = read_library(value.to_string().as_bytes()).unwrap_err().to_string();
+        assert!(message.contains(words) && message.contains("cork"), "{pointer}: {message}");
+    }
+    let published = |texture: &mut Value| texture["anchors_along"] = texture["anchors"].clone();
+    let mut value: Value = serde_json::from_slice(V1_7).unwrap();
+    published(&mut value["textures"][1]);
+    let message = read_library(value.to_string().as_bytes()).unwrap_err().to_string();
+    assert!(message.contains("\"published\"") && message.contains("along"), "{message}");
+}
+
+/// Heights have steps of a 32,767th of the largest one; all else is read as it was.
+#[test]
+fn a_written_texture_is_read_with_all_its_layers() {
+    let library = read(V1_7);
+    let again = read(&write_library(&library));
+    assert_eq!(again, library);
+    let mut turned = library.clone();
+    for degrees in [180.0, -180.0, 0.1, 359.0_f64] {
+        let model = turned.textures[0].model.clone();
+        turned.textures[0].model = model.with_turn_rad(degrees.to_radians());
+        let bytes = write_library(&turned);
+        assert_eq!(write_library(&read(&bytes)), bytes);
+        let found = read(&bytes).textures[0].model.turn_rad();
+        assert!((found - turned.textures[0].model.turn_rad()).abs() < 1e-11, "{degrees}: {found}");
+    }
+}
+
+#[test]
 fn paths_that_lead_nowhere_are_refused() {
     let edits: [(&str, Value, &str); 5] = [
         ("/textures/0/path/along", json!("mood"), "distance or time"),
@@ -217,7 +306,7 @@ fn axes_are_two_attributes() {
 
 #[test]
 fn what_is_not_known_is_written_back() {
-    for golden in [V1_0, V1_1, V1_2, V1_3, V1_4, V1_5, V1_6] {
+    for golden in [V1_0, V1_1, V1_2, V1_3, V1_4, V1_5, V1_6, V1_7] {
         let before: Value = serde_json::from_slice(golden).unwrap();
         let after: Value = serde_json::from_slice(&write_library(&read(golden))).unwrap();
         assert_eq!(after, before);
@@ -230,6 +319,26 @@ fn a_library_says_the_lowest_version_that_has_what_it_uses() {
         let value: Value = serde_json::from_slice(&write_library(library)).unwrap();
         value["version"].as_str().unwrap().to_owned()
     };
+    let mut library = read(V1_7);
+    let model = library.textures[0].model.clone();
+    let path = library.textures[0].path.take();
+    assert_eq!(version(&library), "1.7");
+    let bare = |model: TextureModel| {
+        model.with_along(None).unwrap().with_height_map(None).with_stick_slip(None).with_turn_rad(0.0)
+    };
+    for layer in [
+        bare(model.clone()).with_along(model.along().map(<[_]>::to_vec)).unwrap(),
+        bare(model.clone()).with_height_map(model.height_map().cloned()),
+        bare(model.clone()).with_stick_slip(model.stick_slip()),
+        bare(model.clone()).with_turn_rad(model.turn_rad()),
+    ] {
+        library.textures[0].model = layer;
+        assert_eq!(version(&library), "1.7");
+    }
+    library.textures[0].model = bare(model);
+    assert_eq!(version(&library), "1.6");
+    library.textures[0].path = path;
+    assert_eq!(version(&library), "1.7", "a key of the path has layers");
     let mut library = read(V1_4);
     assert_eq!(version(&library), "1.4");
     library.textures[0].path = None;

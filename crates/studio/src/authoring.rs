@@ -5,9 +5,11 @@ use std::sync::Arc;
 use anyhow::Context as _;
 use shagreen_core::space::Space;
 use shagreen_core::space::authoring::{Authoring, Layers, Models};
+use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::plane::Plane;
 use shagreen_core::texture::rate::{at_rate, highest_rate};
+use shagreen_core::texture::shape::Shape;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, TextureEntry};
 
@@ -45,16 +47,40 @@ pub fn authoring(library: &Library, mode: Mode, reporter: &dyn Reporter) -> anyh
 /// # Errors
 /// The texture cannot be converted to this rate; the message names it.
 pub fn plane_at(texture: &TextureEntry, rate: Hertz, reporter: &dyn Reporter) -> anyhow::Result<Plane> {
-    let own = texture.model.rate();
-    if own == rate {
-        return Ok(Plane::new(&texture.model));
+    plane_of(&texture.id, &texture.model, rate, reporter)
+}
+
+/// As [`plane_at`], for the texture in a shape.
+///
+/// # Errors
+/// The texture cannot be shaped, or not be converted to this rate; the message names it.
+pub fn shaped_plane_at(
+    texture: &TextureEntry,
+    shape: &Shape,
+    rate: Hertz,
+    reporter: &dyn Reporter,
+) -> anyhow::Result<Plane> {
+    if shape.is_neutral() {
+        return plane_at(texture, rate, reporter);
     }
-    let converted = at_rate(&texture.model, rate)
-        .with_context(|| format!("\"{}\" cannot be mixed with textures of {rate}", texture.id))?;
+    let shaped = shape
+        .apply(&texture.model)
+        .with_context(|| format!("\"{}\" cannot have the shape {shape}", texture.id))?;
+    plane_of(&texture.id, &shaped, rate, reporter)
+}
+
+/// The plane of the texture with this id.
+fn plane_of(id: &str, model: &TextureModel, rate: Hertz, reporter: &dyn Reporter) -> anyhow::Result<Plane> {
+    let own = model.rate();
+    if own == rate {
+        return Ok(Plane::new(model));
+    }
+    let converted =
+        at_rate(model, rate).with_context(|| format!("\"{id}\" cannot be mixed with textures of {rate}"))?;
     reporter.note(&format!(
-        "\"{}\" has a model rate of {own} and is converted to {rate}, the rate of the other textures: the levels stay \
+        "\"{id}\" has a model rate of {own} and is converted to {rate}, the rate of the other textures: the levels stay \
          the same, the spectra change by {:.1} dB (median over its speeds and forces; at most {:.1} dB)",
-        texture.id, converted.error_db_median, converted.error_db_worst
+        converted.error_db_median, converted.error_db_worst
     ));
     Ok(Plane::new(&converted.model))
 }

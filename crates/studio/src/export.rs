@@ -8,6 +8,7 @@ mod wav;
 
 use std::path::{Path, PathBuf};
 
+use shagreen_core::texture::shape::Shape;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, Provenance, TextureEntry};
 
@@ -75,6 +76,20 @@ pub fn format(id: &str) -> Option<&'static dyn ExportFormat> {
     FORMATS.into_iter().find(|format| format.id() == id)
 }
 
+/// Returns a texture of a library in a shape. Positions, attributes and physical labels are those of the texture without
+/// the shape, so that a texture with another shape than the neutral one has none.
+///
+/// # Errors
+/// The texture cannot be shaped.
+pub fn shaped(texture: &TextureEntry, shape: &Shape) -> anyhow::Result<TextureEntry> {
+    if shape.is_neutral() {
+        return Ok(texture.clone());
+    }
+    let path = texture.path.clone().map(|path| path.shaped(shape)).transpose()?;
+    let model = shape.apply(&texture.model)?;
+    Ok(TextureEntry { model, path, place: None, attributes: None, physical: None, ..texture.clone() })
+}
+
 /// Result of an export.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExportOutcome {
@@ -120,8 +135,9 @@ pub fn export(
 
 #[cfg(test)]
 mod tests {
-    use super::{FORMATS, export, format, listed};
+    use super::{FORMATS, export, format, listed, shaped};
     use crate::report::Warnings;
+    use shagreen_core::texture::shape::Shape;
     use shagreen_formats::starter::starter_library;
 
     #[test]
@@ -138,6 +154,21 @@ mod tests {
         assert!(format("none").is_none());
         let ids: std::collections::BTreeSet<&str> = listed().map(|format| format.id).collect();
         assert_eq!(ids.len(), FORMATS.len() + 1);
+    }
+
+    #[test]
+    fn a_shaped_texture_is_exported_in_its_shape() {
+        let library = starter_library().unwrap();
+        let texture = &library.textures[0];
+        assert_eq!(&shaped(texture, &Shape::default()).unwrap(), texture);
+        let shape = Shape { level_db: -6.0, ..Shape::default() };
+        let quiet = shaped(texture, &shape).unwrap();
+        assert_eq!(quiet.model, shape.apply(&texture.model).unwrap());
+        assert_eq!((quiet.place, &quiet.name), (None, &texture.name));
+        for format in FORMATS {
+            let bytes = |texture| format.bytes(texture, "test").unwrap();
+            assert_ne!(bytes(&quiet), bytes(texture), "{}", format.id());
+        }
     }
 
     #[test]

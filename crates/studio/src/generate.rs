@@ -6,13 +6,13 @@ use anyhow::Context as _;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::surfaces::generated::{GENERATOR, Witness, generate};
 use shagreen_core::surfaces::height_field::HeightField;
-use shagreen_core::surfaces::material::Material;
 use shagreen_core::surfaces::prompt::PromptInterpretation;
 use shagreen_core::surfaces::shading::{Picture, shade_tile};
 use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::starter::starter_anchors;
 use shagreen_learn::diffusion::Wish;
 
+use crate::felt::GeneratedSurface;
 use crate::models::{AddedDiffusion, ModelFolder};
 
 /// Pixels along each side of the picture from which attributes are predicted.
@@ -25,8 +25,17 @@ pub struct GeneratedPicture {
     pub by: String,
     /// Its pixels.
     pub picture: Picture,
-    /// Relief and material of the picture, where they are known.
-    pub relief: Option<(HeightField, Material)>,
+    /// Heights of the pictured surface, where they are known.
+    pub relief: Option<PicturedRelief>,
+}
+
+/// Heights that a picture shows.
+#[derive(Clone, Debug)]
+pub struct PicturedRelief {
+    /// Height field of the picture.
+    pub field: HeightField,
+    /// What the height field was computed from.
+    pub surface: GeneratedSurface,
 }
 
 impl GeneratedPicture {
@@ -34,8 +43,8 @@ impl GeneratedPicture {
     /// pixels.
     pub fn for_prediction(&self) -> Cow<'_, Picture> {
         match &self.relief {
-            Some((field, material)) if self.picture.width != PREDICTED_SIDE => {
-                Cow::Owned(shade_tile(field, material, PREDICTED_SIDE))
+            Some(PicturedRelief { field, surface }) if self.picture.width != PREDICTED_SIDE => {
+                Cow::Owned(shade_tile(field, &surface.material, PREDICTED_SIDE))
             }
             _ => Cow::Borrowed(&self.picture),
         }
@@ -63,7 +72,10 @@ pub fn generate_procedurally(
     Ok(GeneratedPicture {
         by: GENERATOR.to_owned(),
         picture: made.picture,
-        relief: Some((made.field, made.material)),
+        relief: Some(PicturedRelief {
+            surface: GeneratedSurface { material: made.material, tile: made.field.tile(), seed },
+            field: made.field,
+        }),
     })
 }
 

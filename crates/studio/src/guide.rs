@@ -18,12 +18,14 @@ macro_rules! page {
 }
 
 /// All pages, the table of contents first.
-pub static PAGES: [GuidePage; 35] = [
+pub static PAGES: [GuidePage; 37] = [
     page!("index"),
     page!("first-steps"),
     page!("terms"),
     page!("troubleshooting"),
     page!("author"),
+    page!("touch"),
+    page!("shape-a-texture"),
     page!("interpolation-modes"),
     page!("strokes"),
     page!("compare-textures"),

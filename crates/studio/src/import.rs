@@ -3,6 +3,7 @@
 //! Recordings are no models yet: they ask questions and are fitted, so they have a way of their own
 //! (`shagreen_formats::recording`). A new format of models is a file below `import/` and a line in [`FORMATS`].
 
+pub mod directional;
 mod hatt;
 mod library;
 

@@ -13,11 +13,14 @@
 )]
 
 pub mod authoring;
+pub mod driven_channels;
 pub mod export;
+pub mod felt;
 pub mod figure_files;
 pub mod file;
 pub mod generate;
 pub mod guide;
+pub mod height_map;
 pub mod import;
 pub mod judgments;
 pub mod library;

@@ -9,12 +9,13 @@ use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::plane::Plane;
 use shagreen_core::texture::rate::highest_rate;
+use shagreen_core::texture::shape::Shape;
 use shagreen_core::texture::tap::Tap;
 use shagreen_core::units::Hertz;
-use shagreen_formats::library::Library;
+use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::wav::TraceV1;
 
-use crate::authoring::{authoring, plane_at};
+use crate::authoring::{authoring, shaped_plane_at};
 use crate::near_names::unknown_texture;
 use crate::report::Reporter;
 
@@ -31,6 +32,8 @@ pub struct Sound {
     pub mixing: Mode,
     /// Voices and their weights; for a path only the first texture.
     voices: Vec<(SoundVoice, f64)>,
+    /// Shape of all voices, of the path and of the tap transient.
+    pub shape: Shape,
     /// Path along a stroke, if the texture changes.
     pub path: Option<TexturePath>,
     /// Tap transient, if it is known.
@@ -46,26 +49,28 @@ pub struct Sound {
 }
 
 enum SoundVoice {
-    /// A texture of the library, by its index.
+    /// A texture of the library, by its index, without the shape.
     Texture(usize),
-    /// A texture interpolated for the point.
+    /// A texture interpolated for the point, with the shape.
     Interpolated(TextureModel),
 }
 
 impl Sound {
-    /// Selects a texture of the library.
+    /// Selects a texture of the library, in a shape.
     ///
     /// # Errors
-    /// The library has no texture of this id; the message names similar ids.
-    pub fn of_texture(library: &Library, id: &str, mode: Mode) -> anyhow::Result<Self> {
+    /// The library has no texture of this id; the message names similar ids. Or a texture of its path cannot be shaped.
+    pub fn of_texture(library: &Library, id: &str, mode: Mode, shape: &Shape) -> anyhow::Result<Self> {
         let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
+        let TextureEntry { path, model, .. } = &library.textures[index];
         Ok(Self {
             parents: vec![(index, 1.0)],
             mode,
             mixing: Mode::Shared,
             voices: vec![(SoundVoice::Texture(index), 1.0)],
-            path: library.textures[index].path.clone(),
-            tap: library.textures[index].model.tap(),
+            shape: *shape,
+            path: path.as_ref().map(|path| path.clone().shaped(shape)).transpose()?,
+            tap: shape.tap(model.tap()),
             texture: Some(id.to_owned()),
             at: None,
             clamped: false,
@@ -73,20 +78,21 @@ impl Sound {
         })
     }
 
-    /// Authors the texture at a point.
+    /// Authors the texture at a point, in a shape.
     ///
     /// # Errors
     /// No texture of the library has a position, or the field has no texture at the point.
     pub fn of_point(
         library: &Library,
         point: SpacePoint,
-        blending: &Blending,
+        (blending, shape): (&Blending, &Shape),
         reporter: &dyn Reporter,
     ) -> anyhow::Result<Self> {
         let authored = authoring(library, blending.mode, reporter)?
             .author(point, blending)
             .context("no texture of the library has a position; use --texture, or assign positions first")?;
         warn_outside_hull(point, &authored, reporter);
+        let authored = authored.shaped(shape).context("the texture at this point cannot have this shape")?;
         let voice = |(voice, weight): (Voice<'_>, f64)| match voice {
             Voice::Texture(index) => (SoundVoice::Texture(index), weight),
             Voice::Made(model) => (SoundVoice::Interpolated(model.clone()), weight),
@@ -101,6 +107,7 @@ impl Sound {
             mode: blending.mode,
             mixing: authored.mixing(),
             voices,
+            shape: *shape,
             path: None,
             tap: authored.tap(|index| library.textures[index].model.tap()),
             texture: None,
@@ -119,7 +126,9 @@ impl Sound {
         let rate = self.rate(library)?;
         let plane = |(voice, weight): &(SoundVoice, f64)| {
             let plane = match voice {
-                SoundVoice::Texture(index) => plane_at(&library.textures[*index], rate, reporter)?,
+                SoundVoice::Texture(index) => {
+                    shaped_plane_at(&library.textures[*index], &self.shape, rate, reporter)?
+                }
                 SoundVoice::Interpolated(model) => Plane::new(model),
             };
             Ok((plane, *weight))
@@ -174,6 +183,11 @@ impl Sound {
             0 => named,
             n => format!("{named} and {n} more"),
         }
+    }
+
+    /// Returns the shape as text, or `None` if it is neutral.
+    pub fn shape_text(&self) -> Option<String> {
+        (!self.shape.is_neutral()).then(|| self.shape.to_string())
     }
 
     /// Returns the point as JSON.

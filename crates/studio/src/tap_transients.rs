@@ -15,7 +15,8 @@ const FULL_SCALE_MPS2: f32 = 1_048_576.0;
 const TICKS_AHEAD: f64 = 10.0;
 
 /// Adds the tap transients of a stroke to a rendered texture, in m/s² at a rate in Hz; `model_rate_hz` is the rate of
-/// the texture. A tap transient begins at the end of the tick that detects the contact, as it does live.
+/// the texture. A tap transient begins at the end of the tick that detects the contact, as it does live, and scales with
+/// the impact speed if the stroke states it.
 ///
 /// # Errors
 /// The engine does not support the rates.
@@ -32,6 +33,7 @@ pub fn add_tap_transients(
         seed: 0, // There is no noise.
         drive: DriveConfig::proportional(FULL_SCALE_MPS2, 1.0),
         channels: ChannelMask::only(0),
+        friction: None,
     };
     let (mut handle, mut engine) = engine::new(config).context("the tap transients cannot be rendered")?;
     handle.set_tap(tap);
@@ -60,6 +62,8 @@ pub fn add_tap_transients(
 
 #[cfg(test)]
 mod tests {
+    mod landings;
+
     use super::{Tap, Track, add_tap_transients};
     use shagreen_device::track::PenSample;
 
@@ -70,7 +74,7 @@ mod tests {
         let sample = |i: u32| {
             let time_secs = 0.001 * f64::from(i);
             let touching = touching.iter().any(|(from, to)| (*from..*to).contains(&time_secs));
-            PenSample { time_secs, x_m: 0.1 * time_secs, y_m: 0.0, force_n: 1.0, touching }
+            PenSample { time_secs, x_m: 0.1 * time_secs, force_n: 1.0, touching, ..PenSample::default() }
         };
         Track::new(&(0..2000).map(sample).collect::<Vec<_>>()).unwrap()
     }

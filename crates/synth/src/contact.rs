@@ -22,11 +22,13 @@ impl Contact {
     }
 }
 
-/// Position of the tip along a relief.
+/// Position of the tip on the pad.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Place {
-    /// Position in m.
+    /// Position to the right, in m.
     pub x_m: f64,
+    /// Position upwards, in m.
+    pub y_m: f64,
     /// Number of jumps so far: position changes without a path between the two positions.
     pub n_jumps: u32,
 }
@@ -36,7 +38,7 @@ pub trait ContactSource {
     /// Returns the contact at `time_secs` of the model clock, which starts at zero and never decreases.
     fn contact_at(&mut self, time_secs: f64) -> Contact;
 
-    /// Returns the tip position at the contact that was requested last. The default is a tip at rest at 0 m.
+    /// Returns the tip position at the contact that was requested last. The default is a tip at rest at (0, 0) m.
     fn place(&self) -> Place {
         Place::default()
     }

@@ -33,8 +33,11 @@
 
 pub mod budget;
 pub mod contact;
+pub mod direction;
 pub mod drive;
 pub mod equalizer;
+pub mod height_map;
+mod high_pass;
 pub mod lift_gate;
 pub mod limiter;
 mod limits;
@@ -42,9 +45,12 @@ pub mod look_ahead;
 pub mod lsf;
 mod moving_average;
 pub mod noise;
+mod octave;
+mod power_gain;
 pub mod relief;
 pub mod renderer;
 pub mod resampler;
+pub mod stick_slip;
 pub mod stream;
 pub mod tap;
 pub mod texture;

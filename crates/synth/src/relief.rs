@@ -1,9 +1,9 @@
 //! Surface relief: a signal stored over position and played by the tip's displacement, in both directions.
 
-use core::f32::consts::PI;
-
 use crate::contact::Place;
+use crate::high_pass::HighPass;
 use crate::limits::MAX_TICK;
+use crate::octave::{lower_and_share, octave_for};
 
 /// Fewest samples of an octave: the number that the cubic interpolation uses.
 pub const LEAST_SAMPLES: usize = 4;
@@ -28,9 +28,10 @@ pub enum ReliefError {
     Number,
 }
 
-/// A periodic acceleration profile in m/s² over tip position, stored as octaves (a multiresolution pyramid). Octave 0
-/// has `n` samples, one per step. Each further octave has half as many samples and half the bandwidth. Every octave
-/// contains only components with at least four samples per period, for the cubic interpolation.
+/// A periodic acceleration profile in m/s² over the tip position along the texture's x axis, stored as octaves (a
+/// multiresolution pyramid). Octave 0 has `n` samples, one per step. Each further octave has half as many samples and
+/// half the bandwidth. Every octave contains only components with at least four samples per period, for the cubic
+/// interpolation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Relief<'a> {
     step_m: f32,
@@ -91,14 +92,18 @@ impl<'a> Relief<'a> {
         self.octaves
     }
 
+    /// Acceleration in m/s² at a position in m along the texture's x axis, at the reference force, without components that
+    /// repeat within twice the displacement `way_m`.
+    pub fn value_mps2(&self, x_m: f64, way_m: f64) -> f32 {
+        self.at(x_m / f64::from(self.step_m), octave_for(way_m, self.step_m))
+    }
+
     /// The value in m/s² at a position, in samples of octave 0. A fractional octave interpolates linearly between two
     /// octaves.
     fn at(&self, place: f64, octave: f32) -> f32 {
         // After the last octave only the mean remains.
         let beyond = (self.n / LEAST_SAMPLES).ilog2() + 1;
-        let octave = octave.clamp(0.0, beyond as f32);
-        let lower = octave as u32;
-        let share = octave - lower as f32;
+        let (lower, share) = lower_and_share(octave, beyond);
         let value = self.in_octave(place, lower);
         if share > 0.0 { value + share * (self.in_octave(place, lower + 1) - value) } else { value }
     }
@@ -124,26 +129,15 @@ impl<'a> Relief<'a> {
         let [a, b, c, d] = [sample(-1), sample(0), sample(1), sample(2)];
         b + 0.5 * t * (c - a + t * (2.0 * a - 5.0 * b + 4.0 * c - d + t * (3.0 * (b - c) + d - a)))
     }
-
-    /// The octave to play for a tip displacement per model sample: the first one whose band ends at or below half the
-    /// sample rate. Above each whole octave, the next octave is faded in within a quarter of an octave. Components at
-    /// the edge of the band thus fade out smoothly, and aliasing is possible only within that quarter octave.
-    fn octave(&self, way_m: f64) -> f32 {
-        let ways = libm::fabs(way_m) as f32 / (2.0 * self.step_m);
-        if ways <= 1.0 {
-            return 0.0;
-        }
-        let octave = libm::log2f(ways);
-        let lower = libm::floorf(octave);
-        lower + (4.0 * (octave - lower)).min(1.0)
-    }
 }
 
 /// Tip displacement during a tick, with the normal force at both ends.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Passage {
-    /// Position at the start and at the end of the tick, in m.
-    pub places_m: (f64, f64),
+    /// Position to the right at the start and at the end of the tick, in m.
+    pub x_m: (f64, f64),
+    /// Position upwards at the start and at the end of the tick, in m.
+    pub y_m: (f64, f64),
     /// Normal force at the start and at the end, in N.
     pub forces_n: (f32, f32),
     /// Whether the start position differs from the previous end position (a contact onset or a jump).
@@ -156,75 +150,85 @@ impl Passage {
     /// jump, the passage starts at the new position without a displacement.
     #[must_use]
     pub fn on(self, place: Place, force_n: f32) -> Self {
-        let Place { x_m, n_jumps } = place;
-        let place_m = if x_m.is_finite() { x_m } else { self.places_m.1 };
-        let is_far = libm::fabs(place_m - self.places_m.1) > JUMP_M;
-        let is_elsewhere = self.forces_n.1 <= 0.0 || n_jumps != self.n_jumps || is_far;
-        let before_m = if is_elsewhere { place_m } else { self.places_m.1 };
-        Self { places_m: (before_m, place_m), forces_n: (self.forces_n.1, force_n), is_elsewhere, n_jumps }
+        let here_m = |place_m: f64, before_m: f64| if place_m.is_finite() { place_m } else { before_m };
+        let (x_m, y_m) = (here_m(place.x_m, self.x_m.1), here_m(place.y_m, self.y_m.1));
+        let is_far = libm::hypot(x_m - self.x_m.1, y_m - self.y_m.1) > JUMP_M;
+        let is_elsewhere = self.forces_n.1 <= 0.0 || place.n_jumps != self.n_jumps || is_far;
+        let (from_x_m, from_y_m) = if is_elsewhere { (x_m, y_m) } else { (self.x_m.1, self.y_m.1) };
+        Self {
+            x_m: (from_x_m, x_m),
+            y_m: (from_y_m, y_m),
+            forces_n: (self.forces_n.1, force_n),
+            is_elsewhere,
+            n_jumps: place.n_jumps,
+        }
+    }
+
+    /// Returns the passage in the axes of a texture whose x axis lies at an angle on the pad, given by the cosine and
+    /// the sine of that angle (counterclockwise). It is the same passage for an angle of zero.
+    #[must_use]
+    pub fn turned(&self, (cos, sin): (f32, f32)) -> Self {
+        let (cos, sin) = (f64::from(cos), f64::from(sin));
+        let turn = |x_m: f64, y_m: f64| (cos * x_m + sin * y_m, cos * y_m - sin * x_m);
+        let (from, to) = (turn(self.x_m.0, self.y_m.0), turn(self.x_m.1, self.y_m.1));
+        Self { x_m: (from.0, to.0), y_m: (from.1, to.1), ..*self }
     }
 }
 
 /// Playback state of a relief.
 #[derive(Clone, Debug)]
 pub struct ReliefVoice {
-    /// High-pass coefficients: `keep` for the last output, `take` for the change of the input.
-    keep: f32,
-    take: f32,
-    /// Last input and output in m/s²; `None` while the tip is lifted.
-    last: Option<(f32, f32)>,
+    high_pass: HighPass,
+    is_touching: bool,
     octave: f32,
 }
 
 impl ReliefVoice {
     /// A silent voice at the model's sample rate in Hz.
     pub fn new(rate_hz: f32) -> Self {
-        let corner = PI * HIGH_PASS_HZ / rate_hz;
-        let (keep, take) = ((1.0 - corner) / (1.0 + corner), 1.0 / (1.0 + corner));
-        Self { keep, take, last: None, octave: 0.0 }
+        Self { high_pass: HighPass::new(HIGH_PASS_HZ, rate_hz), is_touching: false, octave: 0.0 }
     }
 
     /// Clears the playback state.
     pub fn reset(&mut self) {
-        self.last = None;
+        self.is_touching = false;
     }
 
     /// Adds a tick to `out` (at most [`MAX_TICK`] samples), multiplied by a weight that changes linearly from
-    /// `weights.0` to `weights.1`. At a contact onset, the output starts at zero whatever the relief's value there.
+    /// `weights.0` to `weights.1`. Of the passage, in the texture's axes, it uses x only. At a contact onset, the output
+    /// starts at zero whatever the relief's value there.
     ///
     /// Cost per sample: at most two cubic interpolations.
     pub fn add_tick(&mut self, relief: &Relief<'_>, passage: &Passage, weights: (f32, f32), out: &mut [f32]) {
-        let Passage { places_m, forces_n, is_elsewhere, .. } = *passage;
-        if forces_n.1 <= 0.0 && (forces_n.0 <= 0.0 || self.last.is_none()) {
-            self.last = None;
+        let Passage { x_m, forces_n, is_elsewhere, .. } = *passage;
+        if forces_n.1 <= 0.0 && (forces_n.0 <= 0.0 || !self.is_touching) {
+            self.is_touching = false;
             return;
         }
         let n = out.len().min(MAX_TICK);
         let share = 1.0 / n.max(1) as f32;
-        let way_m = (places_m.1 - places_m.0) * f64::from(share);
-        let octave = relief.octave(way_m);
+        let way_m = (x_m.1 - x_m.0) * f64::from(share);
+        let octave = octave_for(way_m, relief.step_m);
         // The octave before a contact onset or a jump does not match the current speed.
-        let goes_on = self.last.is_some() && !is_elsewhere;
+        let goes_on = self.is_touching && !is_elsewhere;
         let octave_before = if goes_on { self.octave } else { octave };
         self.octave = octave;
-        let here = || relief.at(places_m.0 / f64::from(relief.step_m), octave_before);
+        let here = || relief.at(x_m.0 / f64::from(relief.step_m), octave_before);
         // The high-pass state is kept after a jump, to avoid a click.
-        let (mut input, mut kept) = match self.last {
-            Some((_, kept)) if is_elsewhere => (here(), kept),
-            Some(last) => last,
-            None => (here(), 0.0),
-        };
+        if !self.is_touching {
+            self.high_pass.start_at(here());
+        } else if is_elsewhere {
+            self.high_pass.jump_to(here());
+        }
         let gain = |force_n: f32, weight: f32| weight * (force_n / relief.force_n).min(MOST_GAIN);
         let gains = (gain(forces_n.0, weights.0), gain(forces_n.1, weights.1));
         for (i, y) in out[..n].iter_mut().enumerate() {
             let done = (i + 1) as f32 * share;
-            let place = (places_m.0 + way_m * (i + 1) as f64) / f64::from(relief.step_m);
+            let place = (x_m.0 + way_m * (i + 1) as f64) / f64::from(relief.step_m);
             let x = relief.at(place, octave_before + done * (self.octave - octave_before));
-            kept = self.keep * kept + self.take * (x - input);
-            input = x;
-            *y += (gains.0 + done * (gains.1 - gains.0)) * kept;
+            *y += (gains.0 + done * (gains.1 - gains.0)) * self.high_pass.next(x);
         }
-        self.last = (forces_n.1 > 0.0).then_some((input, kept));
+        self.is_touching = forces_n.1 > 0.0;
     }
 }
 

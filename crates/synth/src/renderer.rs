@@ -1,10 +1,16 @@
 //! Mixer of up to three textures into one signal at the model's sample rate, one tick at a time.
 
+mod friction;
+mod slot;
+
 use crate::contact::{Contact, Place};
+use crate::direction::DirectionMean;
 use crate::noise::{Gaussian, Noise};
-use crate::relief::{Passage, ReliefVoice};
+use crate::relief::Passage;
+use crate::renderer::friction::MixedFriction;
+use crate::renderer::slot::Slot;
 use crate::texture::Texture;
-use crate::voice::{MAX_TICK, Voice};
+use crate::voice::MAX_TICK;
 
 /// Longest control tick, in seconds.
 pub const TICK_SECS: f32 = 0.005;
@@ -74,24 +80,12 @@ impl Mix {
     }
 }
 
-#[derive(Clone, Debug)]
-struct Slot {
-    id: Option<TextureId>,
-    voice: Voice,
-    relief: ReliefVoice,
-    noise: Noise,
-    hint: u16,
-    weight: f32,
-    target: f32,
-    step: f32,
-    level: f32,
-}
-
 /// Mixer of textures. Its output is in m/s² at the sample rate of the textures, which must all share that rate.
 #[derive(Clone, Debug)]
 pub struct Renderer {
     seed: u64,
     tick_len: usize,
+    tick_secs: f32,
     fade_ticks: f32,
     gaussian: Gaussian,
     shared_noise: Noise,
@@ -100,8 +94,12 @@ pub struct Renderer {
     /// Fade of the power compensation, 0..1.
     compensation: f32,
     makeup: f32,
+    /// Contact at the end of the last tick.
+    contact: Contact,
     /// Tip displacement in the last tick.
     passage: Passage,
+    direction: DirectionMean,
+    friction: MixedFriction,
 }
 
 impl Renderer {
@@ -110,28 +108,21 @@ impl Renderer {
     pub fn new(rate_hz: f32, seed: u64) -> Self {
         let rate_hz = if rate_hz.is_finite() { rate_hz.clamp(200.0, 4000.0) } else { 1000.0 };
         let tick_len = ((rate_hz * TICK_SECS) as usize).clamp(1, MAX_TICK);
-        let slot = Slot {
-            id: None,
-            voice: Voice::new(),
-            relief: ReliefVoice::new(rate_hz),
-            noise: Noise::new(seed),
-            hint: 0,
-            weight: 0.0,
-            target: 0.0,
-            step: 0.0,
-            level: 0.0,
-        };
         Self {
             seed,
             tick_len,
+            tick_secs: tick_len as f32 / rate_hz,
             fade_ticks: (FADE_SECS * rate_hz / tick_len as f32).max(1.0),
             gaussian: Gaussian::new(),
             shared_noise: Noise::new(seed ^ 0x5EED_0FA1_15EE_D0FA),
-            slots: core::array::from_fn(|_| slot.clone()),
+            slots: core::array::from_fn(|_| Slot::new(rate_hz)),
             blend: Blend::Power,
             compensation: 1.0,
             makeup: 1.0,
+            contact: Contact::LIFTED,
             passage: Passage::default(),
+            direction: DirectionMean::default(),
+            friction: MixedFriction::new(rate_hz),
         }
     }
 
@@ -153,8 +144,7 @@ impl Renderer {
         }
         for slot in &mut self.slots {
             if let Some(id) = slot.id {
-                slot.target = mix.weight_of(id);
-                slot.step = (slot.target - slot.weight) / self.fade_ticks;
+                slot.fade_to(mix.weight_of(id), self.fade_ticks);
             }
         }
         for parent in mix.parents.iter().filter(|p| p.weight > 0.0) {
@@ -163,14 +153,8 @@ impl Renderer {
             }
             let seed = self.seed ^ (u64::from(parent.id) + 1).wrapping_mul(0xD1B5_4A32_D192_ED03);
             let Some(slot) = self.slots.iter_mut().find(|s| s.id.is_none()) else { break };
-            slot.id = Some(parent.id);
-            slot.voice.reset();
-            slot.relief.reset();
-            slot.noise = Noise::new(seed);
-            slot.hint = 0;
-            slot.weight = 0.0;
-            slot.target = mix.weight_of(parent.id);
-            slot.step = slot.target / self.fade_ticks;
+            slot.take(parent.id, seed);
+            slot.fade_to(mix.weight_of(parent.id), self.fade_ticks);
         }
         self.blend = mix.blend;
         true
@@ -178,22 +162,14 @@ impl Renderer {
 
     /// Completes all fades at once, for a render that starts in the middle of a stroke.
     pub fn finish_fades(&mut self) {
-        for slot in &mut self.slots {
-            slot.weight = slot.target;
-            slot.step = 0.0;
-            if slot.target == 0.0 {
-                slot.id = None;
-            }
-        }
+        self.slots.iter_mut().for_each(Slot::finish_fade);
         self.compensation = if self.blend == Blend::Power { 1.0 } else { 0.0 };
     }
 
     /// Clears the state of all filters, so that they no longer oscillate. Fades and noise continue.
     pub fn silence(&mut self) {
-        for slot in &mut self.slots {
-            slot.voice.clear_memory();
-            slot.relief.reset();
-        }
+        self.slots.iter_mut().for_each(Slot::clear_memory);
+        self.friction.reset();
     }
 
     /// Whether a voice of texture `id` is active, including fades.
@@ -204,7 +180,10 @@ impl Renderer {
     /// Renders one tick that ends at `contact` and `place`. Overwrites the first [`Renderer::tick_len`] samples of
     /// `out`.
     ///
-    /// A texture that its owner no longer has is silent. Cost: at most [`MAX_VOICES`] voices.
+    /// A texture that its owner no longer has is silent. Cost: at most [`MAX_VOICES`] voices, each with its grain
+    /// ([`Texture::evaluate`]), relief and height map; beside them one stick-slip model, and one exponential function for
+    /// the direction. A rotated texture with a relief or a height map needs a sine and a cosine, one with a grain along
+    /// its lay two of each. Nothing is allocated.
     pub fn tick(&mut self, textures: &dyn Textures, contact: Contact, place: Place, out: &mut [f32]) {
         let n = self.tick_len.min(out.len());
         let out = &mut out[..n];
@@ -215,25 +194,26 @@ impl Renderer {
                 *e = self.gaussian.draw(&mut self.shared_noise);
             }
         }
-        self.passage = self.passage.on(place, contact.sanitized().force_n);
-        let (mut starts, mut reliefs) = ([0.0; MAX_VOICES], [None; MAX_VOICES]);
-        for ((slot, start), relief) in self.slots.iter_mut().zip(&mut starts).zip(&mut reliefs) {
+        let contacts = (self.contact, contact.sanitized());
+        self.contact = contacts.1;
+        self.passage = self.passage.on(place, self.contact.force_n);
+        let direction = self.direction.follow(&self.passage, self.tick_secs);
+        let (mut starts, mut lent) = ([0.0; MAX_VOICES], [None; MAX_VOICES]);
+        for ((slot, start), texture) in self.slots.iter_mut().zip(&mut starts).zip(&mut lent) {
             *start = slot.weight;
             let Some(id) = slot.id else { continue };
-            slot.weight = approach(slot.weight, slot.target, slot.step);
-            if let Some(texture) = textures.texture(id) {
-                let at = texture.evaluate(contact, &mut slot.hint);
-                slot.level = at.level_mps2;
-                slot.voice.aim(texture.order(), &at);
-                *relief = texture.relief();
-            } else {
-                slot.weight = 0.0;
-                slot.target = 0.0;
-            }
+            *texture = textures.texture(id);
+            slot.aim(texture.as_ref(), contact, direction);
         }
         let makeup_before = self.makeup;
         self.makeup = self.next_makeup();
-        for ((slot, start), relief) in self.slots.iter_mut().zip(starts).zip(reliefs) {
+        let slots = self.slots.iter().zip(&starts).zip(&lent);
+        let frictions = slots.filter_map(|((slot, start), texture)| {
+            let friction = texture.and_then(|texture| texture.friction())?;
+            Some((friction, (*start, slot.weight)))
+        });
+        self.friction.add_tick(frictions, contacts, out);
+        for ((slot, start), texture) in self.slots.iter_mut().zip(starts).zip(&lent) {
             if slot.id.is_none() {
                 continue;
             }
@@ -246,14 +226,10 @@ impl Renderer {
                 }
                 &own[..n]
             };
-            slot.voice.add_tick(noise, (start * makeup_before, slot.weight * self.makeup), out);
-            // Relief signals are coherent, because they depend on position only; their sum needs no power compensation.
-            match relief {
-                Some(relief) => {
-                    slot.relief.add_tick(&relief, &self.passage, (start, slot.weight), out);
-                }
-                None => slot.relief.reset(),
-            }
+            slot.add_grain(noise, (start * makeup_before, slot.weight * self.makeup), out);
+            // Signals of relief and height map are coherent, because they depend on position only; their sum needs no
+            // power compensation.
+            slot.add_surface(texture.as_ref(), &self.passage, (start, slot.weight), out);
             if slot.weight == 0.0 && slot.target == 0.0 {
                 slot.id = None;
             }

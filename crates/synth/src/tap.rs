@@ -1,6 +1,29 @@
 //! Tap transient at a contact onset: a decaying sinusoid that starts at the sample of the impact.
+//!
+//! A tap transient is stated for an impact at [`REFERENCE_IMPACT_MPS`]. Other impact speeds follow the law of Hertz
+//! contact (K. L. Johnson, "Contact Mechanics", 1985, section 11.4): a tip that hits an elastic surface at speed `v` is
+//! stopped with a peak acceleration proportional to `v^{6/5}` in a contact time proportional to `v^{-1/5}`. With
+//! `s = v / v_reference`, the transient is therefore `a(t; s) = s^{6/5} a(s^{1/5} t; 1)`:
+//!
+//! - amplitude `A s^{6/5}`
+//! - frequency `f s^{1/5}`
+//! - decay rate `B s^{1/5}`, so that the transient keeps its shape and its peak is exactly proportional to `s^{6/5}`
 
 use core::f64::consts::TAU;
+
+/// Impact speed for which tap transients are stated, in m/s: a light tap by hand.
+pub const REFERENCE_IMPACT_MPS: f64 = 0.1;
+/// Exponent of the peak acceleration of a Hertz impact over its speed.
+const PEAK_EXPONENT: f64 = 1.2;
+/// Exponent of the frequency, the reciprocal of the contact time.
+const FREQUENCY_EXPONENT: f64 = 0.2;
+
+/// Factor on the amplitude of a tap transient at `strength`, the impact speed relative to [`REFERENCE_IMPACT_MPS`];
+/// exactly 1 at 1.
+#[must_use]
+pub fn amplitude_factor(strength: f32) -> f64 {
+    libm::pow(f64::from(strength), PEAK_EXPONENT)
+}
 
 /// Parameters of the tap transient `a(t) = A e^{-Bt} sin 2πft` (Okamura, Cutkosky and Dennerlein, 2001).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,6 +55,10 @@ const ENDED_MPS2: f64 = 1e-5;
 pub const SLOWEST_DECAY_PER_SEC: f64 = 5.0;
 /// Highest amplitude that is rendered, in m/s².
 pub const MAX_AMPLITUDE_MPS2: f64 = 1000.0;
+/// Highest frequency that is rendered, as a share of the sample rate. A transient above it is rendered at this frequency,
+/// with its own amplitude and decay: where a signal cannot hold the oscillation, its peak and its energy are what remains
+/// of a hard landing.
+pub const HIGHEST_SHARE: f64 = 0.4;
 
 /// One transient by its recursion `y[n] = 2r cos θ y[n-1] - r² y[n-2]`.
 #[derive(Clone, Copy, Debug, Default)]
@@ -59,17 +86,23 @@ impl Taps {
         Self { rate_hz: f64::from(rate_hz), ringing: [Ringing::default(); RINGING], next: 0 }
     }
 
-    /// Starts a transient now, scaled by `strength` relative to the measured tap. Parameters without a valid
-    /// oscillation are ignored: a frequency of zero or of at least half the sample rate, or a value that is not finite.
-    /// The decay is at least [`SLOWEST_DECAY_PER_SEC`], and the amplitude at most [`MAX_AMPLITUDE_MPS2`].
+    /// Starts a transient now. `strength` is the impact speed relative to [`REFERENCE_IMPACT_MPS`]; the transient follows
+    /// from it by the law at the top of this module and is unchanged at 1.
+    ///
+    /// Parameters without a valid oscillation are ignored: a frequency that is not above zero, or a value that is not
+    /// finite. The frequency is at most [`HIGHEST_SHARE`] of the sample rate, the decay at least
+    /// [`SLOWEST_DECAY_PER_SEC`], and the amplitude at most [`MAX_AMPLITUDE_MPS2`], whatever the strength is.
     pub fn strike(&mut self, tap: Tap, strength: f32) {
-        let angle = TAU * f64::from(tap.frequency_hz) / self.rate_hz;
-        let decay_per_sec = f64::from(tap.decay_per_sec).max(SLOWEST_DECAY_PER_SEC);
-        let amplitude = f64::from(tap.amplitude_mps2) * f64::from(strength);
-        let can_ring = angle > 0.0 && angle < TAU / 2.0 && amplitude.is_finite() && decay_per_sec.is_finite();
+        let quickening = libm::pow(f64::from(strength), FREQUENCY_EXPONENT);
+        let frequency_hz = f64::from(tap.frequency_hz) * quickening;
+        let decay_per_sec = (f64::from(tap.decay_per_sec) * quickening).max(SLOWEST_DECAY_PER_SEC);
+        let amplitude = f64::from(tap.amplitude_mps2) * amplitude_factor(strength);
+        let can_ring =
+            frequency_hz > 0.0 && [frequency_hz, decay_per_sec, amplitude].iter().all(|x| x.is_finite());
         if !can_ring || amplitude == 0.0 {
             return;
         }
+        let angle = (TAU * frequency_hz / self.rate_hz).min(TAU * HIGHEST_SHARE);
         let amplitude = amplitude.clamp(-MAX_AMPLITUDE_MPS2, MAX_AMPLITUDE_MPS2);
         let decay = libm::exp(-decay_per_sec / self.rate_hz);
         self.ringing[self.next] = Ringing {
@@ -115,8 +148,9 @@ impl Taps {
 #[cfg(test)]
 mod tests {
     extern crate std;
-    use super::{TAU, Tap, Taps};
+    use super::{TAU, Tap, Taps, amplitude_factor};
     use std::vec;
+    use std::vec::Vec;
 
     const WOOD: Tap = Tap { frequency_hz: 180.0, decay_per_sec: 90.0, amplitude_mps2: 6.0 };
 
@@ -124,7 +158,7 @@ mod tests {
     fn rings_as_the_equation_says_in_any_blocks() {
         for block in [1, 100, 4800] {
             let mut taps = Taps::new(48_000.0);
-            taps.strike(WOOD, 0.5);
+            taps.strike(Tap { amplitude_mps2: 3.0, ..WOOD }, 1.0);
             let mut out = vec![0.0_f32; 4800];
             out.chunks_mut(block).for_each(|part| taps.add_to(part));
             for (i, x) in out.iter().enumerate() {
@@ -134,6 +168,70 @@ mod tests {
                 assert!((f64::from(*x) - expected).abs() < 3e-6, "{x} for {expected} at {t} s");
             }
         }
+    }
+
+    /// Samples of one landing.
+    fn landing(tap: Tap, strength: f32, n: usize) -> Vec<f32> {
+        let mut taps = Taps::new(48_000.0);
+        taps.strike(tap, strength);
+        let mut out = vec![0.0_f32; n];
+        taps.add_to(&mut out);
+        out
+    }
+
+    #[test]
+    fn impact_speed_follows_the_law_of_hertz_contact() {
+        for strength in [0.1_f64, 0.5, 1.0, 2.0, 3.0] {
+            let (peak, speed) = (strength.powf(1.2), strength.powf(0.2));
+            for (i, x) in landing(WOOD, strength as f32, 2400).iter().enumerate() {
+                let t = i as f64 / 48_000.0;
+                let expected = 6.0 * peak * (-90.0 * speed * t).exp() * (TAU * 180.0 * speed * t).sin();
+                // Rounding to `f32`, also of the strength, and the end of the transient at 1e-5 m/s².
+                assert!((f64::from(*x) - expected).abs() < 2e-5 * (1.0 + peak), "{x} for {expected}");
+            }
+            // The peak of the waveform, not only its amplitude. At 225 Hz, half a sample is 0.015 rad, where a sine is
+            // 0.01 % below its peak.
+            let highest = |strength: f64| {
+                landing(WOOD, strength as f32, 2400).iter().fold(0.0_f32, |peak, x| peak.max(x.abs()))
+            };
+            let ratio = f64::from(highest(strength)) / f64::from(highest(1.0));
+            assert!((ratio / peak - 1.0).abs() < 5e-4, "{ratio} for {peak}");
+        }
+    }
+
+    #[test]
+    fn a_reference_impact_is_the_stated_transient_to_the_last_bit() {
+        let angle = TAU * 180.0 / 48_000.0;
+        let decay = libm::exp(-90.0 / 48_000.0);
+        let (mut last, mut before) = (0.0, -6.0 / decay * libm::sin(angle));
+        for (i, x) in landing(WOOD, 1.0, 2400).into_iter().enumerate() {
+            assert_eq!(x.to_bits(), (last as f32).to_bits(), "sample {i}");
+            (last, before) = (2.0 * decay * libm::cos(angle) * last - decay * decay * before, last);
+        }
+        assert_eq!(amplitude_factor(1.0), 1.0);
+    }
+
+    /// A tap on glass at the sample rate of a texture model, which cannot hold its 900 Hz.
+    #[test]
+    fn a_transient_above_the_band_keeps_its_peak_and_its_energy() {
+        let glass = Tap { frequency_hz: 900.0, decay_per_sec: 157.0, amplitude_mps2: 691.0 };
+        let mut taps = Taps::new(1000.0);
+        taps.strike(glass, 1.0);
+        let mut out = vec![0.0_f32; 200];
+        taps.add_to(&mut out);
+        let peak = out.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
+        assert!((0.6..=1.0).contains(&(peak / 691.0)), "{peak} m/s²");
+        let energy = out.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>() / 1000.0;
+        // The integral of a decaying sinusoid of many periods; here the decay takes two periods.
+        let expected = 691.0_f64.powi(2) / (4.0 * 157.0);
+        assert!((0.8..1.25).contains(&(energy / expected)), "{energy} for {expected}");
+        // Below this frequency, nothing changes.
+        let mut taps = Taps::new(1000.0);
+        taps.strike(Tap { frequency_hz: 399.0, ..WOOD }, 1.0);
+        let mut out = [0.0_f32; 2];
+        taps.add_to(&mut out);
+        let expected = 6.0 * (-0.09_f64).exp() * (TAU * 0.399).sin();
+        assert!((f64::from(out[1]) - expected).abs() < 1e-5, "{} for {expected}", out[1]);
     }
 
     #[test]
@@ -161,13 +259,14 @@ mod tests {
     #[test]
     fn what_cannot_ring_is_silent() {
         let mut taps = Taps::new(48_000.0);
-        for bad in [f32::NAN, f32::INFINITY, -1.0, 0.0, 30_000.0] {
+        for bad in [f32::NAN, f32::INFINITY, -1.0, 0.0] {
             taps.strike(Tap { frequency_hz: bad, ..WOOD }, 1.0);
         }
         for bad in [f32::NAN, f32::INFINITY, 0.0] {
             taps.strike(Tap { amplitude_mps2: bad, ..WOOD }, 1.0);
             taps.strike(WOOD, bad);
         }
+        taps.strike(WOOD, -1.0);
         taps.strike(Tap { decay_per_sec: f32::INFINITY, ..WOOD }, 1.0);
         taps.strike(Tap::SILENT, 1.0);
         assert!(!taps.are_ringing());
@@ -176,6 +275,12 @@ mod tests {
         let mut strong = vec![0.0; 4800];
         taps.add_to(&mut strong);
         assert!(strong.iter().all(|x| f64::from(x.abs()) <= super::MAX_AMPLITUDE_MPS2));
+        taps.reset();
+        // The bound holds after the law of the impact speed.
+        taps.strike(Tap { amplitude_mps2: 900.0, ..WOOD }, 3.0);
+        let mut fast = vec![0.0; 4800];
+        taps.add_to(&mut fast);
+        assert!(fast.iter().all(|x| f64::from(x.abs()) <= super::MAX_AMPLITUDE_MPS2));
         taps.reset();
         taps.strike(Tap { decay_per_sec: -5.0, ..WOOD }, 1.0);
         taps.add_to(&mut vec![0.0; 480_000]);

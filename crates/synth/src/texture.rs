@@ -1,8 +1,18 @@
-//! Texture model for the callback: nodes over (speed, force) and a triangulation for interpolation.
+//! Texture model for the callback: nodes over (speed, force) and a triangulation for interpolation, with the layers
+//! that depend on the tip's position and direction.
+
+mod check;
+mod spot;
 
 use crate::contact::Contact;
+use crate::direction::Direction;
+use crate::height_map::HeightMap;
 pub use crate::limits::MAX_ORDER;
-use crate::relief::Relief;
+use crate::lsf::ar_from_lsf;
+use crate::power_gain::ln_power_gain;
+use crate::relief::{Passage, Relief};
+use crate::stick_slip::Friction;
+use crate::texture::spot::Spot;
 
 /// "No neighbor" in [`Triangle::neighbors`].
 pub const NO_NEIGHBOR: u16 = u16::MAX;
@@ -58,6 +68,20 @@ pub enum TextureError {
     Number,
     /// The number of excitations is neither zero nor the number of nodes.
     Excitation,
+    /// A published texture, which has excitations, has a grain along the lay.
+    Along,
+    /// The rotation is not finite, or a parameter of the friction is negative or not finite.
+    Layer,
+}
+
+/// Grain for strokes along the lay of a texture, over the same speeds and forces and of the same order as the grain
+/// across the lay.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Along<'a> {
+    /// Nodes of the (speed, force) plane.
+    pub nodes: &'a [Node],
+    /// Triangles over the nodes.
+    pub triangles: &'a [Triangle],
 }
 
 /// Data of a prepared texture, borrowed from its owner.
@@ -73,14 +97,22 @@ pub struct Parts<'a> {
     pub speed_max_mps: f32,
     /// Force at which the texture saturates, in N.
     pub force_max_n: f32,
-    /// Nodes of the (speed, force) plane.
+    /// Nodes of the (speed, force) plane, for strokes across the lay, which is the texture's y axis.
     pub nodes: &'a [Node],
     /// Excitations of a published (HaTT) model, one per node, interpolated instead of levels; empty otherwise.
     pub excitations: &'a [Excitation],
     /// Triangles over the nodes.
     pub triangles: &'a [Triangle],
-    /// Surface relief, if the texture has one.
+    /// Grain for strokes along the lay; `None` for a texture that is the same in all directions.
+    pub along: Option<Along<'a>>,
+    /// Angle of the texture's x axis on the pad, counterclockwise, in rad.
+    pub turn_rad: f32,
+    /// Surface relief along the texture's x axis, if the texture has one.
     pub relief: Option<Relief<'a>>,
+    /// Height map in the texture's axes, if the texture has one.
+    pub height_map: Option<HeightMap<'a>>,
+    /// Friction that makes a tip stick and slip, if the texture has it.
+    pub friction: Option<Friction>,
 }
 
 /// A prepared texture, borrowed by the renderer. [`Texture::new`] checks it once, so that rendering cannot fail.
@@ -108,48 +140,7 @@ impl<'a> Texture<'a> {
     /// # Errors
     /// [`TextureError`] names the first violated rule.
     pub fn new(parts: Parts<'a>) -> Result<Self, TextureError> {
-        let Parts {
-            rate_hz, order, ma_order, speed_max_mps, force_max_n, nodes, excitations, triangles, ..
-        } = parts;
-        let positive = |x: f32| x.is_finite() && x > 0.0;
-        let is_published = !excitations.is_empty();
-        if order == 0 || order > MAX_ORDER || ma_order > MAX_ORDER || (ma_order > 0 && !is_published) {
-            return Err(TextureError::Order);
-        }
-        if !(positive(rate_hz) && positive(speed_max_mps) && positive(force_max_n)) {
-            return Err(TextureError::Range);
-        }
-        let node_is_good = |node: &Node| {
-            node.level_mps2.is_finite() && node.level_mps2 >= 0.0 && ascends(&node.lsf[..order])
-        };
-        if !nodes.iter().all(node_is_good) {
-            return Err(TextureError::Number);
-        }
-        if is_published && excitations.len() != nodes.len() {
-            return Err(TextureError::Excitation);
-        }
-        let excitation_is_good = |excitation: &Excitation| {
-            let Excitation { variance, gain, ma_lsf } = excitation;
-            [variance, gain].iter().all(|x| x.is_finite() && **x >= 0.0) && ascends(&ma_lsf[..ma_order])
-        };
-        if !excitations.iter().all(excitation_is_good) {
-            return Err(TextureError::Number);
-        }
-        let n_triangles = triangles.len();
-        if n_triangles == 0 || n_triangles >= usize::from(NO_NEIGHBOR) {
-            return Err(TextureError::Triangle);
-        }
-        for triangle in triangles {
-            let neighbor_is_good = |&t: &u16| t == NO_NEIGHBOR || usize::from(t) < n_triangles;
-            if !triangle.nodes.iter().all(|&n| usize::from(n) < nodes.len())
-                || !triangle.neighbors.iter().all(neighbor_is_good)
-            {
-                return Err(TextureError::Triangle);
-            }
-            if !triangle.weights.iter().chain(&triangle.ln_gain).all(|x| x.is_finite()) {
-                return Err(TextureError::Number);
-            }
-        }
+        check::parts(&parts)?;
         Ok(Self(parts))
     }
 
@@ -170,39 +161,67 @@ impl<'a> Texture<'a> {
         self.0.order
     }
 
-    /// Surface relief, if the texture has one.
+    /// Angle of the texture's x axis on the pad, counterclockwise, in rad.
+    pub fn turn_rad(&self) -> f32 {
+        self.0.turn_rad
+    }
+
+    /// Surface relief along the texture's x axis, if the texture has one.
     pub fn relief(&self) -> Option<Relief<'a>> {
         self.0.relief
     }
 
-    /// Returns the model at `contact`, clamped to the measured range.
+    /// Height map in the texture's axes, if the texture has one.
+    pub fn height_map(&self) -> Option<HeightMap<'a>> {
+        self.0.height_map
+    }
+
+    /// Whether the texture depends on the tip's position.
+    pub fn has_surface(&self) -> bool {
+        self.0.relief.is_some() || self.0.height_map.is_some()
+    }
+
+    /// Friction that makes a tip stick and slip, if the texture has it.
+    pub fn friction(&self) -> Option<Friction> {
+        self.0.friction
+    }
+
+    /// Returns a passage over the pad in the texture's axes.
+    #[must_use]
+    pub fn passage(&self, on_pad: &Passage) -> Passage {
+        let turn_rad = self.0.turn_rad;
+        if turn_rad == 0.0 { *on_pad } else { on_pad.turned((libm::cosf(turn_rad), libm::sinf(turn_rad))) }
+    }
+
+    /// Returns the model at `contact`, clamped to the measured range, for a stroke in this direction on the pad.
     ///
-    /// `hint` is the index of the triangle of the previous call and is updated. A contact moves little in a tick, so
-    /// the walk usually takes one or two steps. It never takes more steps than there are triangles.
-    pub fn evaluate(&self, contact: Contact, hint: &mut u16) -> Evaluated {
+    /// Between the grains across and along the lay, the line spectral frequencies and the squared level are linear in
+    /// [`Direction::share_along`]. The grains drive one filter by one excitation.
+    ///
+    /// `hints` are the indices of the triangles of the previous call, across and along the lay, and are updated. A
+    /// contact moves little in a tick, so a walk usually takes one or two steps. It never takes more steps than there
+    /// are triangles. A texture with a grain along the lay costs two walks and the power gain of the mixed filter, about
+    /// as much as [`ar_from_lsf`] and `order²` multiply-adds.
+    pub fn evaluate(&self, contact: Contact, direction: Direction, hints: &mut [u16; 2]) -> Evaluated {
         let contact = contact.sanitized();
         let x = (contact.speed_mps / self.0.speed_max_mps).min(1.0);
         let y = (contact.force_n / self.0.force_max_n).min(1.0);
         let none = [0.0; MAX_ORDER];
         let mut at = Evaluated { lsf: none, ma_lsf: none, ma_order: 0, level_mps2: 0.0, sigma_mps2: 0.0 };
-        let Some((triangle, weights)) = self.locate(x, y, hint) else { return at };
-        let [u, v, w] = weights;
-        let [Some(a), Some(b), Some(c)] = triangle.nodes.map(|n| self.0.nodes.get(usize::from(n))) else {
-            return at;
-        };
-        for (i, out) in at.lsf[..self.0.order].iter_mut().enumerate() {
-            *out = u * a.lsf[i] + v * b.lsf[i] + w * c.lsf[i];
-        }
-        let g = &triangle.ln_gain;
-        let ln_gain = u * (2.0 * u - 1.0) * g[0]
-            + v * (2.0 * v - 1.0) * g[1]
-            + w * (2.0 * w - 1.0) * g[2]
-            + 4.0 * (v * w * g[3] + w * u * g[4] + u * v * g[5]);
+        let [across_hint, along_hint] = hints;
+        let Some(spot) = Spot::of(self.0.nodes, self.0.triangles, [x, y], across_hint) else { return at };
+        spot.write_lsf(&mut at.lsf[..self.0.order]);
+        let ln_gain = spot.ln_gain();
         if self.0.excitations.is_empty() {
-            at.level_mps2 = (u * a.level_mps2 + v * b.level_mps2 + w * c.level_mps2).max(0.0);
+            at.level_mps2 = spot.level_mps2();
             at.sigma_mps2 = at.level_mps2 * libm::expf(-0.5 * ln_gain);
+            if let Some(along) = self.0.along
+                && let Some(spot) = Spot::of(along.nodes, along.triangles, [x, y], along_hint)
+            {
+                self.mix_along(&spot, direction.share_along(self.0.turn_rad), ln_gain, &mut at);
+            }
         } else {
-            self.excite(triangle, weights, &mut at);
+            self.excite(&spot, &mut at);
             // A published model may have nonzero variance on the axes, but a lifted or resting tip must be silent. The
             // filters are kept, so that the last tick before the lift still has them.
             if x <= 0.0 || y <= 0.0 {
@@ -213,13 +232,32 @@ impl<'a> Texture<'a> {
         at
     }
 
+    /// Mixes the grain along the lay into `at`, the grain across it with the logarithmic power gain `ln_gain`.
+    fn mix_along(&self, along: &Spot<'_>, share: f32, ln_gain: f32, at: &mut Evaluated) {
+        let order = self.0.order;
+        let mut lsf = [0.0; MAX_ORDER];
+        along.write_lsf(&mut lsf[..order]);
+        for (mixed, along) in at.lsf[..order].iter_mut().zip(lsf) {
+            *mixed += share * (along - *mixed);
+        }
+        let (across_mps2, along_mps2) = (at.level_mps2, along.level_mps2());
+        at.level_mps2 =
+            libm::sqrtf((1.0 - share) * across_mps2 * across_mps2 + share * along_mps2 * along_mps2);
+        let mut ar = [0.0; MAX_ORDER];
+        ar_from_lsf(&at.lsf[..order], &mut ar[..order]);
+        // The gains of the two grains do not give that of the mixed filter. Only a filter that is not stable in `f32` has
+        // none.
+        let mixed_gain = ln_power_gain(&ar[..order]);
+        let ln_gain = mixed_gain.unwrap_or(ln_gain + share * (along.ln_gain() - ln_gain));
+        at.sigma_mps2 = at.level_mps2 * libm::expf(-0.5 * ln_gain);
+    }
+
     /// Interpolates the moving average and the excitation of a published model. Variance and gain are each linear
     /// within the triangle.
-    fn excite(&self, triangle: &Triangle, [u, v, w]: [f32; 3], at: &mut Evaluated) {
-        let [Some(a), Some(b), Some(c)] = triangle.nodes.map(|n| self.0.excitations.get(usize::from(n)))
-        else {
-            return;
-        };
+    fn excite(&self, spot: &Spot<'_>, at: &mut Evaluated) {
+        let [u, v, w] = spot.weights;
+        let indices = spot.triangle.nodes.map(usize::from);
+        let [Some(a), Some(b), Some(c)] = indices.map(|n| self.0.excitations.get(n)) else { return };
         at.ma_order = self.0.ma_order;
         for (i, out) in at.ma_lsf[..at.ma_order].iter_mut().enumerate() {
             *out = u * a.ma_lsf[i] + v * b.ma_lsf[i] + w * c.ma_lsf[i];
@@ -227,45 +265,6 @@ impl<'a> Texture<'a> {
         let variance = u * a.variance + v * b.variance + w * c.variance;
         at.sigma_mps2 = (u * a.gain + v * b.gain + w * c.gain) * libm::sqrtf(variance.max(0.0));
     }
-
-    /// Returns the triangle of a normalized contact and its three barycentric weights, each at least zero, with sum
-    /// one.
-    fn locate(&self, x: f32, y: f32, hint: &mut u16) -> Option<(&Triangle, [f32; 3])> {
-        let mut triangle = self.0.triangles.get(usize::from(*hint)).or_else(|| {
-            *hint = 0;
-            self.0.triangles.first()
-        })?;
-        let mut weights = [0.0; 3];
-        for _ in 0..=self.0.triangles.len() {
-            let m = &triangle.weights;
-            let u = m[0] * x + m[1] * y + m[2];
-            let v = m[3] * x + m[4] * y + m[5];
-            weights = [u, v, 1.0 - u - v];
-            let mut lowest = 0;
-            for i in 1..3 {
-                if weights[i] < weights[lowest] {
-                    lowest = i;
-                }
-            }
-            let next = triangle.neighbors[lowest];
-            if weights[lowest] >= -1e-6 || next == NO_NEIGHBOR {
-                break;
-            }
-            triangle = self.0.triangles.get(usize::from(next))?;
-            *hint = next;
-        }
-        // A contact may lie outside by a rounding error: the weights are clamped and normalized to sum one.
-        let clamped = weights.map(|w| w.max(0.0));
-        let sum = clamped[0] + clamped[1] + clamped[2];
-        Some((triangle, if sum > 0.0 { clamped.map(|w| w / sum) } else { [1.0, 0.0, 0.0] }))
-    }
-}
-
-/// Whether frequencies ascend within (0, π); true for an empty slice.
-fn ascends(lsf: &[f32]) -> bool {
-    lsf.first().is_none_or(|low| *low > 0.0)
-        && lsf.last().is_none_or(|high| *high < core::f32::consts::PI)
-        && lsf.windows(2).all(|w| w[0] < w[1])
 }
 
 #[cfg(test)]

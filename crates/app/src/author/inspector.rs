@@ -1,4 +1,4 @@
-//! Inspector of an authored texture: name, sliders, interpolation mode and contributions.
+//! Inspector of an authored texture: name, sliders, interpolation mode, shape and contributions.
 //!
 //! It shows the selected texture. While a comparison plays another one, it shows that one, which cannot be edited: edits
 //! apply to the selected texture.
@@ -10,6 +10,7 @@ use crate::author::axes_choice::axis_choice_ui;
 use crate::author::blend_choice::blend_ui;
 use crate::author::details::details_ui;
 use crate::author::locks::lock_button;
+use crate::author::shape_ui::shape_ui;
 use crate::author::solo::solo_button;
 use crate::author::texture_picture::picture_ui;
 use crate::command::Command;
@@ -83,7 +84,7 @@ fn compared_ui(ui: &mut Ui, panel: &Panel<'_>, side: Side) -> Option<Command> {
     asked
 }
 
-/// Draws the name, the sliders and the interpolation mode.
+/// Draws the name, the sliders, the interpolation mode and the shape.
 fn settings_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let mut commands = Vec::new();
     let mut name = panel.inspected().name.clone();
@@ -102,6 +103,7 @@ fn settings_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     commands.extend(sliders(ui, panel));
     ui.add_space(GROUP_GAP);
     commands.extend(blend_ui(ui, panel));
+    commands.extend(shape_ui(ui, panel));
     commands
 }
 

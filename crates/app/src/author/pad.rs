@@ -8,7 +8,7 @@ use egui::{
     Align2, CursorIcon, Event, FontId, PointerButton, Pos2, Rect, Role, Sense, Stroke, TouchPhase, Ui,
     WidgetInfo, pos2, vec2,
 };
-use shagreen_core::units::{Contact, MetersPerSecond, Newtons};
+use shagreen_core::units::{Contact, MetersPerSecond, Newtons, Radians};
 use shagreen_device::controls::Input;
 use shagreen_device::hand::{Hand, Path};
 use shagreen_device::repeat::Repeat;
@@ -111,12 +111,24 @@ pub struct PadOutcome {
     pub mouse: Option<MouseReport>,
 }
 
-/// Draws the controls and the pad. `picture` shows the audible texture; its width and height are in mm.
+/// Picture of the audible texture, which repeats without a seam.
+#[derive(Clone, Copy, Debug)]
+pub struct PadPicture {
+    /// The picture on the graphics card.
+    pub texture: egui::TextureId,
+    /// Width and height in mm.
+    pub size_mm: [f64; 2],
+    /// Whether the texture is felt where the picture shows it: the lower left corner of the picture then lies in the middle
+    /// of the pad, where the tip is at zero.
+    pub is_felt: bool,
+}
+
+/// Draws the controls and the pad, with the picture of the audible texture.
 pub fn pad_ui(
     ui: &mut Ui,
     panel: &Panel<'_>,
     state: &mut PadState,
-    picture: Option<(egui::TextureId, [f64; 2])>,
+    picture: Option<PadPicture>,
 ) -> PadOutcome {
     let mut outcome = PadOutcome::default();
     state.follow_strokes(panel.session);
@@ -125,10 +137,12 @@ pub fn pad_ui(
     let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::PAD));
     match picture {
-        Some((texture, [width_mm, height_mm])) => {
+        Some(PadPicture { texture, size_mm: [width_mm, height_mm], is_felt }) => {
             let shape = egui::epaint::RectShape::filled(area, f32::from(RADIUS), egui::Color32::WHITE);
             let tile = POINTS_PER_MM * vec2(width_mm as f32, height_mm as f32);
-            let uv = Rect::from_min_size(pos2(0.0, 0.0), area.size() / tile);
+            let size = area.size() / tile;
+            let from = if is_felt { -0.5 * size } else { egui::Vec2::ZERO };
+            let uv = Rect::from_min_size(from.to_pos2(), size);
             ui.painter().add(shape.with_texture(texture, uv));
         }
         None => {
@@ -140,6 +154,9 @@ pub fn pad_ui(
     let now_secs = ui.input(|i| i.time);
     state.trail.follow(now_secs, panel.session.touch());
     state.trail.show(ui, area, now_secs);
+    if let Some(lay) = panel.session.lay() {
+        lay_mark(ui, area, lay);
+    }
     scale_bar(ui, area);
     tip(ui, area, panel.session.touch());
     ui.input(|i| state.follow_pressure(&i.events));
@@ -195,6 +212,19 @@ fn scale_bar(ui: &Ui, area: Rect) {
         FontId::proportional(10.5),
         t.text,
     );
+}
+
+/// Draws three lines along the lay in the lower left corner.
+fn lay_mark(ui: &Ui, area: Rect, lay: Radians) {
+    let t = tokens(ui.ctx());
+    let size = vec2(26.0, 26.0);
+    let back = Rect::from_min_size(area.left_bottom() + vec2(4.0, -4.0 - size.y), size);
+    ui.painter().rect_filled(back, 3.0, t.background.gamma_multiply(0.75));
+    let along = vec2(lay.0.cos() as f32, -lay.0.sin() as f32);
+    for line in [-1.0, 0.0, 1.0] {
+        let middle = back.center() + 5.0 * line * along.rot90();
+        ui.painter().line_segment([middle - 8.0 * along, middle + 8.0 * along], Stroke::new(1.5, t.text));
+    }
 }
 
 /// Draws the tip as reported by the audio callback: a ring whose disc grows with the normal force, in a dent that deepens

@@ -3,13 +3,16 @@
 
 pub(crate) mod bar_ui;
 pub(crate) mod card_ui;
+mod course;
 mod job;
 mod position_estimate;
+mod simulation;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
 use egui::Context;
+use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::Picture;
 use shagreen_formats::project::AuthoredTexture;
 use shagreen_formats::settings::KeptPrompt;
@@ -17,8 +20,11 @@ use shagreen_formats::settings::KeptPrompt;
 pub use self::position_estimate::{Origin, PositionEstimate};
 
 use self::job::{Job, Maker, Wanted};
+pub(crate) use self::simulation::Simulated;
+use self::simulation::Simulation;
 use crate::command::prompt::PromptCommand;
 use crate::state::source::Source;
+use crate::strings::prompt as words;
 use shagreen_studio::models::{AddedDiffusion, ModelFolder};
 
 /// Prompt box, the running job and the last result.
@@ -33,6 +39,10 @@ pub struct Prompts {
     /// Photos that wait for the running job.
     waiting: VecDeque<Source>,
     guess: Option<PositionEstimate>,
+    /// Simulation of the texture of the last result.
+    simulation: Option<Simulation>,
+    /// Texture that was simulated last, and the key of its authored texture.
+    simulated: Option<(u32, Arc<TextureEntry>)>,
 }
 
 /// Result of a finished job.
@@ -58,6 +68,8 @@ impl Prompts {
             job: None,
             waiting: VecDeque::new(),
             guess: None,
+            simulation: None,
+            simulated: None,
         }
     }
 
@@ -71,7 +83,7 @@ impl Prompts {
 
     /// Discards the jobs and the result, which belong to a project that is no longer open.
     pub(crate) fn forget(&mut self) {
-        (self.job, self.guess) = (None, None);
+        (self.job, self.guess, self.simulation, self.simulated) = (None, None, None, None);
         self.waiting.clear();
     }
 
@@ -125,6 +137,10 @@ impl Prompts {
                 self.waiting.clear();
                 return None;
             }
+            PromptCommand::StopSimulation => {
+                self.simulation = None;
+                return None;
+            }
             PromptCommand::Dismiss => {
                 self.guess = None;
                 return None;
@@ -167,9 +183,43 @@ impl Prompts {
         Some(done)
     }
 
-    /// Keeps the estimate for the authored texture with this key.
-    pub(crate) fn keep(&mut self, guess: PositionEstimate, key: u32) {
+    /// Keeps the estimate for the authored texture with this key, and begins to simulate its texture if the surface is
+    /// known, instead of one that is being simulated.
+    pub(crate) fn keep(&mut self, guess: PositionEstimate, key: u32, ctx: &Context) {
+        if let Some(surface) = guess.surface.clone() {
+            self.simulation = Some(Simulation::begin(surface, key, Arc::clone(&guess.picture), ctx));
+        }
         self.guess = Some(PositionEstimate { key: Some(key), ..guess });
+    }
+
+    /// Whether a texture is being simulated.
+    pub fn is_simulating(&self) -> bool {
+        self.simulation.is_some()
+    }
+
+    /// Progress of the simulation, 0 to 1, if one runs.
+    pub(crate) fn simulated_share(&self) -> Option<f32> {
+        self.simulation.as_ref().map(Simulation::progress)
+    }
+
+    /// Result of the simulation once it has finished, or why it failed.
+    pub(crate) fn collect_simulated(&mut self) -> Option<Result<Simulated, String>> {
+        let done = self.simulation.as_mut()?.collect()?;
+        self.simulation = None;
+        Some(done)
+    }
+
+    /// Texture that was simulated for the authored texture with this key, if it was the last one.
+    pub(crate) fn simulated_for(&self, key: u32) -> Option<&Arc<TextureEntry>> {
+        self.simulated.as_ref().filter(|(of, _)| *of == key).map(|(_, entry)| entry)
+    }
+
+    /// Keeps the texture that was simulated for the authored texture with this key, and notes it in the estimate.
+    pub(crate) fn note_simulated(&mut self, key: u32, entry: Arc<TextureEntry>) {
+        self.simulated = Some((key, entry));
+        if let Some(guess) = self.guess.as_mut().filter(|guess| guess.key == Some(key)) {
+            guess.said.push(words::SIMULATED.to_owned());
+        }
     }
 }
 

@@ -98,7 +98,7 @@ impl TextureSheet {
                 });
                 ui.add_space(GAP);
                 about_ui(ui, panel, texture);
-                model_ui(ui, entry);
+                model_ui(ui, panel, entry);
                 attributes_ui(ui, entry);
             });
             ui.add_space(GROUP_GAP - GAP);

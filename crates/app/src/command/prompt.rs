@@ -18,6 +18,8 @@ pub enum PromptCommand {
     Look(Vec<Source>),
     /// Stops the present job and discards waiting photos.
     Stop,
+    /// Stops the simulation of the last generated texture.
+    StopSimulation,
     /// Closes the card of the last prediction.
     Dismiss,
 }

@@ -6,8 +6,6 @@ use egui::{
 use shagreen_formats::figure::{self, Tone};
 use shagreen_formats::project::N_COLORS;
 
-use crate::look::icons;
-
 /// Colors of one theme.
 #[derive(Clone, Copy, Debug)]
 pub struct Tokens {
@@ -160,9 +158,8 @@ pub fn map_color(share: f32) -> Color32 {
     Color32::from_rgb(red, green, blue)
 }
 
-/// Installs both themes and the icons in an egui context.
+/// Installs both themes in an egui context.
 pub fn install(ctx: &egui::Context) {
-    icons::install(ctx);
     ctx.set_style_of(Theme::Dark, style(&DARK, Visuals::dark()));
     ctx.set_style_of(Theme::Light, style(&LIGHT, Visuals::light()));
 }

@@ -1,18 +1,31 @@
-//! The audible textures: voices with their weights, and the texture interpolated for the point.
+//! The audible textures: voices with their weights, and the textures interpolated for the point or shaped.
+
+mod shaped_textures;
 
 use std::sync::Arc;
 
 use shagreen_core::space::authoring::{Authored, Voice};
 use shagreen_core::texture::blend::{Mode, mixture_psd};
 use shagreen_core::texture::plane::{Plane, Prepared};
-use shagreen_core::units::{Contact, Hertz};
+use shagreen_core::texture::shape::Shape;
+use shagreen_core::units::{Contact, Hertz, Radians};
+use shagreen_formats::library::Library;
+use shagreen_studio::authoring::shaped_plane_at;
+use shagreen_studio::report::Warnings;
+
+pub(super) use self::shaped_textures::ShapedTextures;
+
+use super::loaded_textures::Textures;
+
+/// Difference of level along and across from which a direction is shown, in dB: about what a hand notices.
+const LEAST_LAY_DB: f64 = 1.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Source {
     /// Library texture with this index.
     Library(usize),
-    /// [`Audible::made`].
-    Made,
+    /// Texture of [`Audible::made`] with this number.
+    Made(u64),
 }
 
 /// Audible texture and its weight.
@@ -23,12 +36,12 @@ pub(super) struct AudibleVoice {
     pub(super) share: f64,
 }
 
-/// Interpolated texture, prepared for the renderer.
+/// Texture that is not one of the library, because it is interpolated or shaped, prepared for the renderer.
 #[derive(Clone, Debug)]
 pub(super) struct Made {
     /// Identifies the texture to the output.
     pub(super) number: u64,
-    pub(super) prepared: Prepared,
+    pub(super) prepared: Arc<Prepared>,
 }
 
 /// Audible textures and the mode in which they are mixed.
@@ -37,40 +50,76 @@ pub(super) struct Audible {
     /// At most three; empty is silence.
     pub(super) voices: Vec<AudibleVoice>,
     pub(super) mixing: Mode,
-    pub(super) made: Option<Made>,
+    pub(super) made: Vec<Made>,
 }
 
-/// Speeds and forces of a voice: those of a texture of the library, or of the interpolated model.
-pub(super) fn plane_of(voice: Voice<'_>, planes: &[Arc<Plane>]) -> Arc<Plane> {
+/// Speeds and forces of a voice: those of a texture of the library, which still needs the shape, or of the interpolated
+/// model, which has it. `planes` are those of the library.
+///
+/// # Errors
+/// States why a texture of the library cannot have this shape.
+pub(super) fn plane_of(
+    voice: Voice<'_>,
+    shape: &Shape,
+    library: &Library,
+    planes: &[Arc<Plane>],
+) -> Result<Arc<Plane>, String> {
     match voice {
-        Voice::Texture(texture) => Arc::clone(&planes[texture]),
-        Voice::Made(model) => Arc::new(Plane::new(model)),
+        Voice::Texture(texture) if shape.is_neutral() => Ok(Arc::clone(&planes[texture])),
+        Voice::Texture(texture) => {
+            let (entry, rate) = (&library.textures[texture], planes[texture].rate());
+            let plane = shaped_plane_at(entry, shape, rate, &Warnings::default());
+            plane.map(Arc::new).map_err(|error| format!("{error:#}"))
+        }
+        Voice::Made(model) => Ok(Arc::new(Plane::new(model))),
     }
 }
 
 impl Audible {
-    /// Audible textures of `authored`. An interpolated texture is identified by `number`.
-    pub(super) fn new(authored: &Authored, planes: &[Arc<Plane>], number: u64) -> Self {
+    /// Audible textures of `authored`. Textures that are made are numbered on from `n_made`; library textures in a shape
+    /// come from `shaped` if they are there.
+    ///
+    /// # Errors
+    /// States why a texture of the library cannot have the shape.
+    pub(super) fn new(
+        authored: &Authored,
+        textures: &Textures,
+        shaped: &mut ShapedTextures,
+        n_made: &mut u64,
+    ) -> Result<Self, String> {
         let mut heard = Self { mixing: authored.mixing(), ..Self::default() };
         for (voice, share) in authored.voices() {
-            let plane = plane_of(voice, planes);
-            let source = match voice {
-                Voice::Texture(texture) => Source::Library(texture),
-                Voice::Made(_) => {
-                    heard.made = Some(Made { number, prepared: plane.prepare() });
-                    Source::Made
+            let (plane, made) = match voice {
+                Voice::Texture(texture) if authored.shape.is_neutral() => {
+                    let (source, plane) = (Source::Library(texture), Arc::clone(&textures.planes[texture]));
+                    heard.voices.push(AudibleVoice { source, plane, share });
+                    continue;
                 }
+                Voice::Texture(texture) => shaped.of(texture, &authored.shape, textures, n_made)?,
+                Voice::Made(model) => numbered(Arc::new(Plane::new(model)), n_made),
             };
-            heard.voices.push(AudibleVoice { source, plane, share });
+            heard.voices.push(AudibleVoice { source: Source::Made(made.number), plane, share });
+            heard.made.push(made);
         }
-        heard
+        Ok(heard)
+    }
+
+    /// Direction of the lay of the heaviest texture whose level at `contact` differs along and across by [`LEAST_LAY_DB`].
+    pub(super) fn lay(&self, contact: Contact) -> Option<Radians> {
+        let differs = |voice: &&AudibleVoice| {
+            let level = |plane: &Plane| plane.at(contact).level_mps2;
+            let along = voice.plane.along().map_or(0.0, level);
+            (20.0 * (level(&voice.plane) / along).log10()).abs() >= LEAST_LAY_DB
+        };
+        let directional = self.voices.iter().filter(|voice| voice.plane.lay().is_some()).filter(differs);
+        directional.max_by(|a, b| a.share.total_cmp(&b.share))?.plane.lay()
     }
 
     /// A single interpolated texture, identified by `number`.
     pub(super) fn made_alone(plane: Plane, number: u64) -> Self {
-        let made = Some(Made { number, prepared: plane.prepare() });
-        let voice = AudibleVoice { source: Source::Made, plane: Arc::new(plane), share: 1.0 };
-        Self { voices: vec![voice], made, ..Self::default() }
+        let made = Made { number, prepared: Arc::new(plane.prepare()) };
+        let voice = AudibleVoice { source: Source::Made(number), plane: Arc::new(plane), share: 1.0 };
+        Self { voices: vec![voice], made: vec![made], ..Self::default() }
     }
 
     /// Whether all voices remain valid: their library textures are marked in `is_kept`, and their sample rate is
@@ -79,7 +128,7 @@ impl Audible {
         self.voices.iter().all(|voice| {
             let is_there = match voice.source {
                 Source::Library(texture) => is_kept.get(texture).copied().unwrap_or(false),
-                Source::Made => true,
+                Source::Made(_) => true,
             };
             is_there && voice.plane.rate() == rate
         })
@@ -91,4 +140,11 @@ impl Audible {
             self.voices.iter().map(|voice| (&*voice.plane, voice.share)).collect();
         mixture_psd(&voices, self.mixing, contact, frequencies)
     }
+}
+
+/// A plane with the texture that it makes for the renderer, under the next number.
+fn numbered(plane: Arc<Plane>, n_made: &mut u64) -> (Arc<Plane>, Made) {
+    *n_made += 1;
+    let made = Made { number: *n_made, prepared: Arc::new(plane.prepare()) };
+    (plane, made)
 }

@@ -73,9 +73,10 @@ impl AuthoredSources {
     pub(crate) fn signals(&self) -> Result<Vec<SignalFile>, String> {
         let signal = |texture: &AuthoredTexture| {
             let authored = self.authored(texture)?;
+            let plane = |voice| plane_of(voice, &authored.shape, &self.library, &self.planes);
             let voices = authored.voices().into_iter();
-            let voices: Vec<_> =
-                voices.map(|(voice, share)| (plane_of(voice, &self.planes), share)).collect();
+            let voices = voices.map(|(voice, share)| plane(voice).map(|plane| (plane, share)));
+            let voices: Vec<_> = voices.collect::<Result<_, String>>()?;
             if voices.is_empty() {
                 return Err(strings::NO_TEXTURE.to_owned());
             }
@@ -104,7 +105,9 @@ impl AuthoredSources {
 
     fn authored(&self, texture: &AuthoredTexture) -> Result<Authored, String> {
         let blending = texture.blend.blending(|id| self.library.index_of(id));
-        self.authoring.author(texture.at, &blending).ok_or_else(|| strings::NO_TEXTURE.to_owned())
+        let authored = self.authoring.author(texture.at, &blending);
+        let authored = authored.ok_or_else(|| strings::NO_TEXTURE.to_owned())?;
+        authored.shaped(&texture.shape).map_err(|error| error.to_string())
     }
 
     fn context(&self) -> SignalContext<'_> {

@@ -4,7 +4,8 @@ use std::time::Instant;
 
 use shagreen_core::units::Hertz;
 use shagreen_device::audio_input::InputInfo;
-use shagreen_device::output::OutputInfo;
+use shagreen_device::output::{NULL_ID, OutputInfo};
+use shagreen_device::serial::ID_PREFIX;
 use shagreen_device::status::Status;
 use shagreen_device::stylus::StylusInfo;
 use shagreen_device::touch::Touch;
@@ -122,6 +123,14 @@ impl Session {
     /// Lists audio inputs in the background.
     pub fn list_inputs(&mut self, ctx: &egui::Context) {
         self.sound.player.list_inputs(ctx.clone());
+    }
+
+    /// Whether the open output renders friction: the profile of the actuator has a friction display, and the output is an
+    /// audio output with the channel of the display.
+    pub fn renders_friction(&self) -> bool {
+        let is_audio = self.output_id().is_some_and(|id| id != NULL_ID && !id.starts_with(ID_PREFIX));
+        let Some((_, n_channels, _)) = self.stream().filter(|_| is_audio) else { return false };
+        self.rig().channels(false).1.is_some_and(|friction| friction.channel_idx < usize::from(n_channels))
     }
 
     /// Sample rate in Hz, number of channels, and block size in frames of the open output.

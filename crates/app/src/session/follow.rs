@@ -68,11 +68,11 @@ impl Session {
         let solo = self.solo(project).filter(|_| self.authored.path_point.is_none() && heard.is_none());
         let at = self.authored.path_point.unwrap_or(texture.at);
         let key = self.follow_key(solo);
-        let wanted = (at, self.blending(&texture.blend), solo, key);
+        let wanted = (at, self.blending(&texture.blend), texture.shape, solo, key);
         if self.sound.player.wanted.as_ref() != Some(&wanted) {
             self.authored.current = match solo {
                 Some(texture) => Some(self.alone(texture, key, at, wanted.1.mode)),
-                None => self.authored.authoring.author(at, &wanted.1),
+                None => self.shaped_at(at, &wanted.1, &wanted.2),
             };
             self.hear();
             self.sound.player.wanted = Some(wanted);

@@ -4,9 +4,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use shagreen_core::space::SpacePoint;
-use shagreen_core::space::authoring::Authored;
+use shagreen_core::space::authoring::{Authored, Blending};
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::rate::at_rate;
+use shagreen_core::texture::shape::Shape;
 use shagreen_core::units::Hertz;
 use shagreen_device::synth::tap::Tap;
 
@@ -67,14 +68,35 @@ impl Session {
         }
     }
 
+    /// The texture at a point of the space, in a shape.
+    pub(super) fn shaped_at(
+        &mut self,
+        at: SpacePoint,
+        blending: &Blending,
+        shape: &Shape,
+    ) -> Option<Authored> {
+        match self.authored.authoring.author(at, blending)?.shaped(shape) {
+            Ok(authored) => Some(authored),
+            Err(error) => {
+                self.say(error.to_string());
+                None
+            }
+        }
+    }
+
     /// Makes the interpolated texture audible. If the models for its mode are still being computed, the previous
     /// texture keeps playing.
     pub(super) fn hear(&mut self) {
-        self.authored.n_made += 1;
         let heard = match &self.authored.current {
-            Some(authored) => Audible::new(authored, &self.textures.planes, self.authored.n_made),
-            None => Audible::default(),
+            Some(authored) => {
+                Audible::new(authored, &self.textures, &mut self.sound.shaped, &mut self.authored.n_made)
+            }
+            None => Ok(Audible::default()),
         };
+        let heard = heard.unwrap_or_else(|reason| {
+            self.say(reason);
+            Audible::default()
+        });
         if self.authored.current.is_some() && heard.voices.is_empty() && self.is_preparing() {
             return;
         }

@@ -6,16 +6,17 @@ use shagreen_formats::project::{AuthoredTexture, Project};
 
 use crate::session::Session;
 
-/// Textures along the path of an authored texture, or `None` without a path.
+/// Textures along the path of an authored texture, in its shape, or `None` without a path.
 ///
 /// # Errors
-/// There is no texture at a point of the path.
+/// There is no texture at a point of the path, or it cannot have the shape.
 pub(crate) fn drawn_path(
     texture: &AuthoredTexture,
     session: &Session,
 ) -> Option<Result<TexturePath, TexturePathError>> {
     let route = texture.path.as_ref()?.route()?;
-    Some(TexturePath::of_route(session.authoring(), &route, &session.blending(&texture.blend)))
+    let path = TexturePath::of_route(session.authoring(), &route, &session.blending(&texture.blend));
+    Some(path.and_then(|path| path.shaped(&texture.shape)))
 }
 
 /// The project's path as a texture of the list, or `None` without a path. It carries the terms of use of every texture

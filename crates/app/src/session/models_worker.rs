@@ -7,7 +7,9 @@ use std::time::Instant;
 use shagreen_core::space::Space;
 use shagreen_core::space::authoring::{Layers, Models};
 use shagreen_core::texture::TextureModel;
+use shagreen_core::texture::height_map::HeightMap;
 use shagreen_core::texture::plane::Plane;
+use shagreen_core::texture::stick_slip::StickSlip;
 use shagreen_core::texture::tap::Tap;
 
 use crate::state::background::in_background;
@@ -22,9 +24,12 @@ pub(super) struct Job {
 
 /// Interpolated properties of a texture.
 pub(super) struct Ingredients {
-    pub(super) plane: Arc<Plane>,
-    pub(super) friction: Option<f64>,
-    pub(super) tap: Option<Tap>,
+    plane: Arc<Plane>,
+    friction: Option<f64>,
+    tap: Option<Tap>,
+    height_map: Option<Arc<HeightMap>>,
+    stick_slip: Option<StickSlip>,
+    turn_rad: f64,
 }
 
 type Outcome = Result<Arc<Models>, String>;
@@ -41,19 +46,33 @@ pub(super) struct ModelsWorker {
 
 impl Ingredients {
     pub(super) fn of(model: &TextureModel, plane: Arc<Plane>) -> Self {
-        Self { plane, friction: model.friction(), tap: model.tap() }
+        Self {
+            plane,
+            friction: model.friction(),
+            tap: model.tap(),
+            height_map: model.height_map().cloned(),
+            stick_slip: model.stick_slip(),
+            turn_rad: model.turn_rad(),
+        }
+    }
+
+    fn layers(&self) -> Layers<'_> {
+        Layers {
+            plane: &self.plane,
+            along: self.plane.along(),
+            friction: self.friction,
+            tap: self.tap,
+            height_map: self.height_map.as_ref(),
+            stick_slip: self.stick_slip,
+            turn_rad: self.turn_rad,
+        }
     }
 }
 
 impl Job {
     fn run(&self) -> Outcome {
-        let layers: Vec<Option<Layers<'_>>> = self
-            .textures
-            .iter()
-            .map(|texture| {
-                texture.as_ref().map(|of| Layers { plane: &of.plane, friction: of.friction, tap: of.tap })
-            })
-            .collect();
+        let layers: Vec<Option<Layers<'_>>> =
+            self.textures.iter().map(|texture| texture.as_ref().map(Ingredients::layers)).collect();
         Models::new(&self.space, &layers).map(Arc::new).map_err(|error| error.to_string())
     }
 }

@@ -157,6 +157,7 @@ mod tests {
             seed: 0,
             drive: DriveConfig::proportional(10.0, 0.9),
             channels: ChannelMask::FIRST_TWO,
+            friction: None,
             take_over: false,
         };
         Request { choice: OutputChoice::Id(NULL_ID.to_owned()), options, ctx: egui::Context::default() }

@@ -9,6 +9,7 @@ use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::Blending;
 use shagreen_core::texture::plane::Prepared;
 use shagreen_core::texture::render::synth_blend;
+use shagreen_core::texture::shape::Shape;
 use shagreen_core::units::Hertz;
 use shagreen_device::audio_input::{InputInfo, list_inputs};
 use shagreen_device::controls::{Controls, Drive, Input, Takeover};
@@ -16,7 +17,7 @@ use shagreen_device::engine::{Handle, LoadError, LoadReason, SLOTS};
 use shagreen_device::error::DeviceErrorKind;
 use shagreen_device::live::LiveInput;
 use shagreen_device::output::{OpenOptions, OutputInfo, OutputKind, Running, is_same_output, list_outputs};
-use shagreen_device::serial::list_serial_ports;
+use shagreen_device::serial::{ID_PREFIX, list_serial_ports};
 use shagreen_device::signal::{Signal, SignalError};
 use shagreen_device::status::{LinkState, Status};
 use shagreen_device::stylus::MouseStylus;
@@ -39,19 +40,22 @@ const TONE_SECS: f64 = 2.0;
 /// Maximum number of loaded textures; the least recently played one is unloaded.
 const KEPT: usize = SLOTS - 16;
 
-/// Slots of interpolated textures, each with the number of its texture.
-#[derive(Clone, Copy, Debug, Default)]
+/// Slots of textures that are not those of the library, each with the number of its texture.
+#[derive(Debug, Default)]
 struct MadeSlots {
-    /// Slot in the present mix.
-    sounding: Option<(u64, TextureId)>,
-    /// Slot loaded for the next mix.
-    next: Option<(u64, TextureId)>,
+    /// Slots in the present mix.
+    sounding: Vec<(u64, TextureId)>,
+    /// Slots loaded for the next mix.
+    next: Vec<(u64, TextureId)>,
 }
+
+/// Input of a mix: point, interpolation options, shape, index of the soloed texture, and key on its path.
+type Wanted = (SpacePoint, Blending, Shape, Option<usize>, Option<usize>);
 
 /// An output, and everything to be sent to it: many fields, because the output takes all of it through one handle.
 pub(super) struct Player {
-    /// Input of the last computed mix: point, interpolation options, index of the soloed texture, and key on its path.
-    pub(super) wanted: Option<(SpacePoint, Blending, Option<usize>, Option<usize>)>,
+    /// Input of the last computed mix.
+    pub(super) wanted: Option<Wanted>,
     pub(super) mix_is_new: bool,
     /// Tap transient at a contact onset, from the next mix on.
     pub(super) tap: Tap,
@@ -160,13 +164,17 @@ impl Player {
         model_rate_hz: f32,
         ctx: egui::Context,
     ) {
+        // The default output of the system is never a serial port.
+        let is_serial = matches!(&choice, OutputChoice::Id(id) if id.starts_with(ID_PREFIX));
+        let (channels, friction) = rig.channels(is_serial);
         let options = OpenOptions {
             model_rate_hz,
             preferred_rate_hz: None,
             buffer_frames: Some(rig.buffer_frames),
             seed: 1,
             drive,
-            channels: rig.channels(),
+            channels,
+            friction,
             take_over,
         };
         self.begin(Request { choice, options, ctx });
@@ -277,11 +285,15 @@ impl Player {
             return;
         }
         self.n_mixes += 1;
+        self.unload_replaced(&heard.made);
         let mut mix = Mix::silent(synth_blend(heard.mixing));
         for (voice, parent) in heard.voices.iter().zip(&mut mix.parents[..MAX_PARENTS]) {
             let id = match voice.source {
                 Source::Library(texture) => self.slot_of(texture, ahead),
-                Source::Made => heard.made.as_ref().and_then(|made| self.slot_of_made(made)),
+                Source::Made(number) => {
+                    let made = heard.made.iter().find(|made| made.number == number);
+                    made.and_then(|made| self.slot_of_made(made))
+                }
             };
             let Some(id) = id else { return };
             *parent = Parent { id, weight: voice.share as f32 };
@@ -292,10 +304,11 @@ impl Player {
             self.mix_is_new = false;
             let is_sounding =
                 |(_, id): &(u64, TextureId)| mix.parents.iter().any(|p| p.id == *id && p.weight > 0.0);
-            let before = [self.made.sounding.take(), self.made.next.take()];
-            for slot in before.into_iter().flatten() {
+            let MadeSlots { mut sounding, next } = std::mem::take(&mut self.made);
+            sounding.extend(next);
+            for slot in sounding {
                 if is_sounding(&slot) {
-                    self.made.sounding = Some(slot);
+                    self.made.sounding.push(slot);
                 } else {
                     // It fades out before its slot is freed.
                     handle.unload(slot.1);
@@ -336,18 +349,27 @@ impl Player {
         Some(id)
     }
 
-    /// Slot of an interpolated texture, loaded if necessary.
+    /// Unloads textures that were loaded for the next mix and are not in it any more, because the point or the shape
+    /// changed before they played.
+    fn unload_replaced(&mut self, made: &[Made]) {
+        let Some(handle) = &mut self.handle else { return };
+        self.made.next.retain(|(number, id)| {
+            let is_wanted = made.iter().any(|made| made.number == *number);
+            if !is_wanted {
+                handle.unload(*id);
+            }
+            is_wanted
+        });
+    }
+
+    /// Slot of a texture that is not one of the library, loaded if necessary.
     fn slot_of_made(&mut self, made: &Made) -> Option<TextureId> {
-        let known = [self.made.sounding, self.made.next];
-        if let Some((_, id)) = known.into_iter().flatten().find(|(number, _)| *number == made.number) {
-            return Some(id);
-        }
-        if let (Some((_, id)), Some(handle)) = (self.made.next.take(), &mut self.handle) {
-            // The point moved on before this texture played.
-            handle.unload(id);
+        let mut known = self.made.sounding.iter().chain(&self.made.next);
+        if let Some((_, id)) = known.find(|(number, _)| *number == made.number) {
+            return Some(*id);
         }
         let id = self.load(&made.prepared)?;
-        self.made.next = Some((made.number, id));
+        self.made.next.push((made.number, id));
         Some(id)
     }
 

@@ -134,6 +134,7 @@ impl SignalContext<'_> {
         let named = |(texture, weight): &(usize, f64)| ParentV1::new(library, *texture, *weight);
         let sidecar = SidecarV1 {
             blend: authored.mode.id().to_owned(),
+            shape: (!authored.shape.is_neutral()).then(|| authored.shape.to_string()),
             library: library.name.clone(),
             label_source: self.source.map(|source| LabelSource::id(source).to_owned()),
             parents: parents.iter().map(named).collect(),
@@ -162,7 +163,11 @@ pub(super) fn entry_of(library: &Library, name: &str, authored: &Authored) -> Re
     // Far beyond the textures, a blend may be what no file may hold.
     model.check_stable().map_err(|error| error.to_string())?;
     let parents: Vec<usize> = authored.parents.iter().map(|(texture, _)| *texture).collect();
-    Ok(library.entry_of_point(name, authored.location.at, model, &parents))
+    let mut entry = library.entry_of_point(name, authored.location.at, model, &parents);
+    if !authored.shape.is_neutral() {
+        entry.origin = strings::shaped(&entry.origin, &authored.shape.to_string());
+    }
+    Ok(entry)
 }
 
 /// Signal of the Signals workspace at its own speed and force.

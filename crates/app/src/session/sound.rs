@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::time::Instant;
 
-use super::audible::Audible;
+use super::audible::{Audible, ShapedTextures};
 use super::played_signal::PlayedSignal;
 use super::player::Player;
 use super::{Spectra, drawn_frequencies};
@@ -19,6 +19,8 @@ pub(super) struct Sound {
     pub(super) rig: Rig,
     /// The audible textures and their mixture.
     pub(super) heard: Audible,
+    /// Library textures in the shape of the audible texture.
+    pub(super) shaped: ShapedTextures,
     /// A signal of the workspace Signals that is felt instead.
     pub(super) felt: Option<PlayedSignal>,
     /// Power spectral densities at the present contact.
@@ -37,6 +39,7 @@ impl Sound {
             player: Player::new(n_textures),
             rig: Rig::default(),
             heard: Audible::default(),
+            shaped: ShapedTextures::default(),
             felt: None,
             spectra: Spectra { frequencies: drawn_frequencies(rate_hz), ..Spectra::default() },
             scope: ScopeBuffer::new(SCOPE_RATE_HZ, rate_hz),

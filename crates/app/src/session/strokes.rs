@@ -93,7 +93,8 @@ impl Session {
         if let Some(recorder) = &mut self.hand.recorder {
             let MouseReport { x_m, y_m, pressed, .. } = report;
             let force_n = if pressed { force_n } else { 0.0 };
-            recorder.take_mouse(PenSample { time_secs: 0.0, x_m, y_m, force_n, touching: pressed });
+            let sample = PenSample { x_m, y_m, force_n, touching: pressed, ..PenSample::default() };
+            recorder.take_mouse(sample);
         }
     }
 

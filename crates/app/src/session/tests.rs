@@ -3,6 +3,7 @@ use std::sync::Arc;
 use shagreen_core::space::LabelSource;
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::rate::at_rate;
+use shagreen_core::texture::shape::{Shape, ShapeControl};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::track::PenSample;
 use shagreen_formats::actuator_toml::built_in_actuators;
@@ -173,6 +174,60 @@ fn a_texture_is_renamed_and_named_as_before() {
     );
     session.follow(&begun, None, &ctx);
     assert_eq!(session.library(), &starter_library().unwrap());
+}
+
+/// In every mode the audible textures have the shape. Library textures in a shape are made once and not at every movement
+/// of the point.
+#[test]
+fn all_that_is_audible_has_the_shape() {
+    let ctx = egui::Context::default();
+    let contact = Contact { speed: MetersPerSecond(0.1), force: Newtons(1.0) };
+    let frequencies = [Hertz(60.0), Hertz(150.0), Hertz(300.0)];
+    let begun = new_project();
+    let mut session = Session::new(begun.library.clone()).unwrap();
+    let start = std::time::Instant::now();
+    while session.is_preparing() {
+        assert!(start.elapsed().as_secs() < 300, "the field is computed");
+        session.begin_work(&ctx);
+        session.follow(&begun, None, &ctx);
+        std::thread::yield_now();
+    }
+    for mode in Mode::ALL {
+        let plain = edited(&begun, Edit::SetMode(mode));
+        session.follow(&plain, None, &ctx);
+        let before = session.sound.heard.psd(contact, &frequencies);
+        let shaped = edited(&plain, Edit::SetShape(ShapeControl::Level, -6.0));
+        session.follow(&shaped, None, &ctx);
+        let after = session.sound.heard.psd(contact, &frequencies);
+        for (a, b) in after.iter().zip(&before) {
+            assert!((10.0 * (a / b).log10() + 6.0).abs() < 1e-6, "{mode:?}: {a} and {b}");
+        }
+        let numbers = |session: &Session| -> Vec<u64> {
+            session.sound.heard.made.iter().map(|made| made.number).collect()
+        };
+        let made = numbers(&session);
+        assert_eq!(made.len(), session.sound.heard.voices.len(), "{mode:?}: all of them are made");
+        let mut at = shaped.texture().at;
+        at.rough_smooth += 0.01;
+        session.follow(&edited(&shaped, Edit::MovePoint(at)), None, &ctx);
+        assert_eq!(numbers(&session) == made, !mode.makes_a_model(), "{mode:?}");
+        session.follow(&plain, None, &ctx);
+        assert_eq!(session.sound.heard.psd(contact, &frequencies), before, "{mode:?}: undone");
+        assert_eq!(numbers(&session).is_empty(), !mode.makes_a_model());
+    }
+}
+
+/// A texture that plays alone is as the library has it.
+#[test]
+fn a_soloed_texture_has_no_shape() {
+    let ctx = egui::Context::default();
+    let shaped = edited(&new_project(), Edit::SetShape(ShapeControl::Grain, 3.0));
+    let mut session = Session::new(shaped.library.clone()).unwrap();
+    let id = session.textures()[3].id.clone();
+    session.follow(&edited(&shaped, Edit::Solo(Some(id))), None, &ctx);
+    assert_eq!(session.authored().unwrap().shape, Shape::default());
+    assert!(session.sound.heard.made.is_empty());
+    assert!(Arc::ptr_eq(&session.sound.heard.voices[0].plane, &session.textures.planes[3]));
 }
 
 /// Updates the session until the condition holds.

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
 
-use egui::{Button, Color32, Context, Key, Label, RichText, ScrollArea, Ui};
+use egui::{Button, Color32, Context, Key, Label, RichText, ScrollArea, TextStyle, Ui};
 use shagreen_core::units::Contact;
 use shagreen_formats::library::Provenance;
 use shagreen_studio::export::{self, FormatInfo, WAV};
@@ -160,7 +160,11 @@ impl ExportSheet {
             let is_asked = input.is_chosen && !self.is_all && Path::new(self.path.text()).exists();
             self.state = if is_asked { State::Exists(1) } else { State::Asking };
         }
-        self.lost_ui(ui, t);
+        // The list comes later and has any length; what is above it must not move then.
+        ui.vertical(|ui| {
+            ui.set_min_height(LOST_HEIGHT + ui.text_style_height(&TextStyle::Body) + GAP);
+            self.lost_ui(ui, t);
+        });
         let (text, color) = self.message(t);
         ui.add(Label::new(RichText::new(text).color(color)).wrap());
         ui.add_space(GAP);

@@ -84,7 +84,7 @@ impl GuideSheet {
                         Piece::Prose(text) => {
                             ui.push_id(index, |ui| {
                                 let viewer = CommonMarkViewer::new().default_width(Some(PAGE_WIDTH as usize));
-                                viewer.show(ui, &mut self.cache, text);
+                                viewer.show(ui, &mut self.cache, &with_captions(text));
                             });
                         }
                         Piece::Code(text) => code_ui(ui, text),
@@ -125,6 +125,15 @@ fn pieces(text: &str) -> Vec<Piece<'_>> {
     pieces
 }
 
+/// The text with pictures replaced by their captions in italics: the window has no picture files.
+fn with_captions(text: &str) -> String {
+    let line = |line: &str| {
+        let picture = line.strip_prefix("![").and_then(|rest| rest.split_once("]("));
+        picture.map_or_else(|| line.to_owned(), |(caption, _)| format!("*{caption}*"))
+    };
+    text.lines().map(line).collect::<Vec<_>>().join("\n")
+}
+
 fn code_ui(ui: &mut Ui, text: &str) {
     let t = tokens(ui.ctx());
     Frame::new().fill(t.control).corner_radius(RADIUS).inner_margin(Margin::same(8)).show(ui, |ui| {
@@ -143,7 +152,7 @@ fn link_to(page: &GuidePage) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Piece, pieces};
+    use super::{Piece, pieces, with_captions};
     use shagreen_studio::guide::PAGES;
 
     #[test]
@@ -156,5 +165,10 @@ mod tests {
         for page in &PAGES {
             assert_eq!(page.text.matches("\n```").count() % 2, 0, "{} has an open code block", page.id);
         }
+    }
+
+    #[test]
+    fn pictures_become_their_captions() {
+        assert_eq!(with_captions("One.\n\n![Two three](four.png)\n"), "One.\n\n*Two three*");
     }
 }

@@ -4,6 +4,7 @@
 //! information. No texture is added to the library before the user accepts it.
 
 pub mod batch;
+mod directional_folder;
 mod draft;
 mod draft_ui;
 mod files_ui;

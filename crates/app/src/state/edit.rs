@@ -8,6 +8,7 @@ use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Outside, Weights};
 use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::shape::{Shape, ShapeControl};
 use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::Picture;
 use shagreen_formats::placed_space::PlacedSpace;
@@ -15,6 +16,7 @@ use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
 use shagreen_formats::text_limits::{MAX_NAME, MAX_NOTES, begin_of};
 
 use crate::strings::edits as strings;
+use shagreen_studio::felt::join_felt;
 
 /// Edit of a project. Unless stated otherwise, it applies to the selected authored texture.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +47,10 @@ pub enum Edit {
     SetOutside(Outside),
     /// Sets the weighting of the textures.
     SetWeights(Weights),
+    /// Sets a control of the shape and ends solo.
+    SetShape(ShapeControl, f64),
+    /// Makes the shape neutral and ends solo.
+    ResetShape,
     /// Renames the texture.
     Rename(String),
     /// Sets the color, as an index of the palette.
@@ -87,6 +93,15 @@ pub enum Edit {
     KeepLibraryInside(ProjectLibrary),
     /// Adds textures to the list.
     AddTextures(Vec<Arc<TextureEntry>>),
+    /// Adds the texture that was simulated for the authored texture with this key ([`join_felt`]).
+    JoinSimulated {
+        /// Key of the authored texture.
+        key: u32,
+        /// Simulated texture.
+        entry: Arc<TextureEntry>,
+        /// Texture that was simulated for it before, to be replaced.
+        earlier: Option<Arc<TextureEntry>>,
+    },
     /// Deletes an added texture, by its index among them.
     RemoveTexture(usize),
     /// Renames a texture of the list.
@@ -135,13 +150,14 @@ pub enum PathChange {
 }
 
 /// Kind of an edit.
-pub type EditKind = (Discriminant<Edit>, Option<PathChange>);
+pub type EditKind = (Discriminant<Edit>, Option<PathChange>, Option<ShapeControl>);
 
 impl Edit {
     /// Kind of the edit. Consecutive edits of one kind and one gesture are undone together.
     pub fn kind(&self) -> EditKind {
         let change = if let Self::ChangePath(change, _) = self { Some(*change) } else { None };
-        (discriminant(self), change)
+        let control = if let Self::SetShape(control, _) = self { Some(*control) } else { None };
+        (discriminant(self), change, control)
     }
 
     /// Name of the edit on `project`, as it follows the words "Undo" and "Redo".
@@ -156,6 +172,8 @@ impl Edit {
             Self::SetOutside(Outside::Extrapolated) => strings::GO_BEYOND.into(),
             Self::SetWeights(Weights::Barycentric) => strings::USE_TRIANGLES.into(),
             Self::SetWeights(Weights::Natural) => strings::USE_NATURAL.into(),
+            Self::SetShape(control, _) => strings::shaped(name, *control).into(),
+            Self::ResetShape => strings::unshaped(name).into(),
             Self::Rename(_) => strings::renamed(name).into(),
             Self::SetColor(_) => strings::colored(name).into(),
             Self::SetNotes(_) => strings::noted(name).into(),
@@ -176,6 +194,7 @@ impl Edit {
             }
             Self::KeepLibraryInside(_) => strings::KEEP_INSIDE.into(),
             Self::AddTextures(_) => strings::ADD_TEXTURES.into(),
+            Self::JoinSimulated { entry, .. } => crate::strings::prompt::simulated(&entry.name).into(),
             Self::RemoveTexture(joined) => {
                 let name = |entry: &Arc<TextureEntry>| {
                     strings::removed_texture(project.renamed.get(&entry.id).unwrap_or(&entry.name))
@@ -234,6 +253,14 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         }),
         Edit::SetOutside(outside) => change(&mut project, |texture| texture.blend.outside = outside),
         Edit::SetWeights(weights) => change(&mut project, |texture| texture.blend.weights = weights),
+        Edit::SetShape(control, value) => {
+            project.solo = None;
+            change(&mut project, |texture| texture.shape = texture.shape.with(control, value));
+        }
+        Edit::ResetShape => {
+            project.solo = None;
+            change(&mut project, |texture| texture.shape = Shape::default());
+        }
         Edit::Rename(name) => change(&mut project, |texture| texture.name = begin_of(name, MAX_NAME)),
         Edit::SetColor(color) => change(&mut project, |texture| texture.color = color),
         Edit::SetNotes(notes) => change(&mut project, |texture| texture.notes = begin_of(notes, MAX_NOTES)),
@@ -268,6 +295,7 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         Edit::OpenLibrary(library) => open(&mut project, library),
         Edit::KeepLibraryInside(library) => project.library = library,
         Edit::AddTextures(entries) => project.joined.extend(entries),
+        Edit::JoinSimulated { key, entry, earlier } => join_felt(&mut project, key, entry, earlier.as_ref()),
         Edit::RemoveTexture(index) => {
             if index < project.joined.len() {
                 project.joined.remove(index);
@@ -311,6 +339,7 @@ fn restore(project: &mut Project, index: usize) {
     change(project, |texture| {
         texture.at = snapshot.at;
         texture.blend.clone_from(&snapshot.blend);
+        texture.shape = snapshot.shape;
         texture.path.clone_from(&snapshot.path);
         texture.picture.clone_from(&snapshot.picture);
     });
@@ -336,6 +365,7 @@ fn open(project: &mut Project, library: ProjectLibrary) {
 mod tests {
     use super::{Edit, edited};
     use shagreen_core::space::SpacePoint;
+    use shagreen_core::texture::shape::{Shape, ShapeControl};
     use shagreen_formats::built_in::BuiltIn;
     use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
 
@@ -370,6 +400,22 @@ mod tests {
         assert!(opened.texture().blend.locked.is_empty());
         let same = after(&locked, [Edit::OpenLibrary(locked.library.clone())]);
         assert_eq!(same, locked, "opening what is open changes nothing");
+    }
+
+    #[test]
+    fn a_shape_is_limited_to_its_ranges_and_reset_at_once() {
+        let project = after(&project(), [Edit::Solo(Some("oak".to_owned()))]);
+        let edits = [Edit::SetShape(ShapeControl::Grain, 2.0), Edit::SetShape(ShapeControl::Level, 99.0)];
+        let shaped = after(&project, edits);
+        let expected = Shape { grain: 2.0, level_db: 12.0, ..Shape::default() };
+        assert_eq!((shaped.texture().shape, &shaped.solo), (expected, &None));
+        assert_eq!(Edit::SetShape(ShapeControl::Grain, 2.0).label(&project), "Change grain size of Oak copy");
+        assert_eq!(Edit::ResetShape.label(&project), "Reset shape of Oak copy");
+        let kinds = [ShapeControl::Grain, ShapeControl::Level].map(|of| Edit::SetShape(of, 1.0).kind());
+        assert_ne!(kinds[0], kinds[1], "two controls are two steps");
+        let kept = after(&shaped, [Edit::KeepSnapshot, Edit::ResetShape]);
+        assert!(kept.texture().shape.is_neutral());
+        assert_eq!(after(&kept, [Edit::RestoreSnapshot(0)]).texture().shape, expected);
     }
 
     #[test]

@@ -104,6 +104,7 @@ mod tests {
     use shagreen_core::space::authoring::{Outside, Weights};
     use shagreen_core::space::texture_path::UserPath;
     use shagreen_core::texture::blend::Mode;
+    use shagreen_core::texture::shape::ShapeControl;
     use shagreen_formats::built_in::BuiltIn;
     use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
     use shagreen_formats::starter::starter_library;
@@ -195,7 +196,7 @@ mod tests {
         let key = project.authored[(number >> 20) as usize % project.authored.len()].key;
         let (id, name, is_on) = (format!("id{}", number >> 61), format!("{share}"), number & 64 == 0);
         let built_in = BuiltIn::ALL[(number >> 50) as usize % 2];
-        match (number >> 33) % 27 {
+        match (number >> 33) % 29 {
             0..=3 => Edit::MovePoint(at),
             4 => Edit::SetMode(Mode::ALL[(number >> 50) as usize % 5]),
             5 => Edit::Lock { id, name, is_locked: is_on },
@@ -227,6 +228,8 @@ mod tests {
                 None => Edit::SetNotes(name),
             },
             24 => Edit::Star { id, name, is_starred: is_on },
+            26 => Edit::SetShape(ShapeControl::ALL[(number >> 50) as usize % 7], 4.0 * share),
+            27 => Edit::ResetShape,
             _ => Edit::RenameTexture { id, name },
         }
     }

@@ -6,35 +6,49 @@ use egui::{Context, TextureId};
 use shagreen_core::surfaces::quilt::Pixels;
 use shagreen_formats::picture::{Picture, Rgb, decode};
 
-use crate::state::pad_surface::LitSurface;
+use crate::state::pad_surface::{LitSurface, PadSurface};
+
+/// Picture of an authored texture, as the pad shows it.
+#[derive(Clone, Debug)]
+pub(crate) struct SurfacePicture {
+    pub(crate) picture: Arc<Picture>,
+    /// Whether the texture is felt where the picture shows it: the pad then repeats the picture as it is. Otherwise it shows
+    /// a larger surface that looks like the picture.
+    pub(crate) is_felt: bool,
+}
 
 /// Surface with the picture of an authored texture, on the graphics card.
 #[derive(Default)]
 pub(crate) struct OwnSurface {
-    of: Option<Arc<Picture>>,
+    of: Option<SurfacePicture>,
     surface: LitSurface,
 }
 
 impl OwnSurface {
-    /// Loads `picture`, that of the audible texture. Returns its surface with width and height in mm when it is made.
+    /// Loads `own`, the picture of the audible texture. Returns its surface with width and height in mm when it is made.
     /// `light` is the direction of the light.
     pub(crate) fn follow(
         &mut self,
-        picture: Option<&Arc<Picture>>,
+        own: Option<SurfacePicture>,
         ctx: &Context,
         light: u8,
     ) -> Option<(TextureId, [f64; 2])> {
-        let is_same = match (&self.of, picture) {
-            (Some(before), Some(now)) => Arc::ptr_eq(before, now) || before == now,
+        // Pictures that are one are equal without a look at their bytes.
+        let is_same = match (&self.of, &own) {
+            (Some(before), Some(now)) => {
+                before.is_felt == now.is_felt
+                    && (Arc::ptr_eq(&before.picture, &now.picture) || before.picture == now.picture)
+            }
             (before, now) => before.is_none() && now.is_none(),
         };
-        self.of = picture.map(Arc::clone);
+        self.of = own;
         if !is_same {
             self.surface.clear();
-            if let Some(picture) = self.of.clone() {
+            if let Some(SurfacePicture { picture, is_felt }) = self.of.clone() {
+                let make = if is_felt { PadSurface::tile } else { PadSurface::new };
                 // Errors were reported when the picture was read; the pad shows none.
-                let pixels = move || Some((pixels_of(&decode(&picture).ok()?), picture.millimeters));
-                self.surface.make(ctx, pixels);
+                let surface = move || Some(make(&pixels_of(&decode(&picture).ok()?), picture.millimeters));
+                self.surface.make(ctx, surface);
             }
         }
         self.of.as_ref()?;

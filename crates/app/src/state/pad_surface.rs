@@ -12,6 +12,8 @@ const SIZE: [usize; 2] = [768, 384];
 /// Resolution in pixels per millimeter, and the longest side of the sample in pixels.
 const PIXELS_PER_MM: f64 = 6.0;
 const LONGEST_SAMPLE: usize = 224;
+/// Longest side of a tile in pixels that is shown pixel by pixel.
+const LONGEST_TILE: usize = 256;
 /// Number of directions of the light.
 pub(crate) const N_LIGHTS: u8 = 32;
 /// Light from the upper left, as in the thumbnails.
@@ -42,6 +44,17 @@ impl PadSurface {
         let mm_per_pixel = width_mm / sample.width as f64;
         // The seed is fixed: the same texture always looks the same.
         let pixels = quilted(&sample, size, 1).unwrap_or(sample);
+        let size_mm = [pixels.width, pixels.height()].map(|side| side as f64 * mm_per_pixel);
+        Self { pixels, size_mm }
+    }
+
+    /// The surface of a seamless picture of `width_mm`, pixel by pixel: what the picture shows lies where it is felt.
+    pub(crate) fn tile(picture: &Pixels, width_mm: f64) -> Self {
+        let is_large = picture.width.max(picture.height()) > LONGEST_TILE;
+        // Only whole pixels keep the picture seamless.
+        let can_be_halved = picture.width.is_multiple_of(2) && picture.height().is_multiple_of(2);
+        let pixels = reduced(picture, if is_large && can_be_halved { 2 } else { 1 });
+        let mm_per_pixel = width_mm / pixels.width as f64;
         let size_mm = [pixels.width, pixels.height()].map(|side| side as f64 * mm_per_pixel);
         Self { pixels, size_mm }
     }
@@ -103,17 +116,15 @@ impl LitSurface {
         *self = Self::default();
     }
 
-    /// Makes the surface of a picture, which `picture` returns with its width in mm; without one, nothing new is shown. The
-    /// previous surface stays meanwhile.
+    /// Makes the surface that `surface` returns; without one, nothing new is shown. The previous surface stays meanwhile.
     pub(crate) fn make(
         &mut self,
         ctx: &Context,
-        picture: impl FnOnce() -> Option<(Pixels, f64)> + Send + 'static,
+        surface: impl FnOnce() -> Option<PadSurface> + Send + 'static,
     ) {
         let light = self.shown.as_ref().map_or(USUAL_LIGHT, |shown| shown.light);
         self.job.ask(ctx, move || {
-            let (pixels, width_mm) = picture()?;
-            let surface = Arc::new(PadSurface::new(&pixels, width_mm));
+            let surface = Arc::new(surface()?);
             Some(Made { image: surface.lit(light), surface, light })
         });
     }
@@ -186,6 +197,15 @@ mod tests {
             lit.pixels.iter().map(|p| f64::from(p.r())).sum::<f64>() / lit.pixels.len() as f64
         };
         assert!((mean(0) - 128.0).abs() < 6.0 && (mean(N_LIGHTS / 2) - 128.0).abs() < 6.0);
+    }
+
+    #[test]
+    fn a_tile_keeps_its_pixels_and_its_width() {
+        let picture = bumps(192);
+        let tile = PadSurface::tile(&picture, 20.0);
+        assert_eq!((tile.pixels.colors, tile.size_mm), (picture.colors, [20.0; 2]));
+        let large = PadSurface::tile(&bumps(512), 18.0);
+        assert_eq!((large.pixels.width, large.size_mm), (256, [18.0; 2]));
     }
 
     #[test]

@@ -10,7 +10,7 @@ use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::{Picture, Rgb, decode};
 use shagreen_formats::project::ProjectLibrary;
 
-use crate::state::pad_surface::LitSurface;
+use crate::state::pad_surface::{LitSurface, PadSurface};
 
 /// Side of the blended picture, in pixels.
 const BLEND_SIDE: usize = 192;
@@ -178,7 +178,7 @@ impl Pictures {
             let sources = parents.iter().map(|(i, w)| Some((Arc::clone(self.pixels.get(*i)?.as_ref()?), *w)));
             if let Some(sources) = sources.collect::<Option<Vec<(Arc<Rgb>, f64)>>>() {
                 let width_mm = parents.iter().map(|(i, w)| w * self.millimeters[*i]).sum();
-                self.surface.make(ctx, move || Some((mix(&sources), width_mm)));
+                self.surface.make(ctx, move || Some(PadSurface::new(&mix(&sources), width_mm)));
                 self.blended = Some(wanted);
             }
         }

@@ -78,8 +78,9 @@ impl RecordedStroke {
     /// The samples as a CSV file.
     pub fn csv(&self) -> Vec<u8> {
         let sample = |sample: &PenSample| {
-            let PenSample { time_secs, x_m, y_m, force_n, touching } = *sample;
-            stroke::PenSample { time_secs, x_m, y_m, press: if touching { force_n } else { 0.0 }, touching }
+            let PenSample { time_secs, x_m, y_m, force_n, touching, impact_mps } = *sample;
+            let press = if touching { force_n } else { 0.0 };
+            stroke::PenSample { time_secs, x_m, y_m, press, touching, impact_mps }
         };
         let samples: Vec<stroke::PenSample> = self.samples.iter().map(sample).collect();
         stroke_csv(&samples, PressUnit::Newtons).into_bytes()
@@ -116,37 +117,39 @@ fn check_length(secs: f64) -> anyhow::Result<()> {
 }
 
 fn pen_sample(sample: &stroke::PenSample, press_unit: PressUnit, map: PressureMap) -> PenSample {
-    let stroke::PenSample { time_secs, x_m, y_m, press, touching } = *sample;
+    let stroke::PenSample { time_secs, x_m, y_m, press, touching, impact_mps } = *sample;
     let force_n = match press_unit {
         PressUnit::FullScale => map.force_n(press, touching),
         PressUnit::Newtons if touching => press,
         PressUnit::Newtons => 0.0,
     };
-    PenSample { time_secs, x_m, y_m, force_n, touching }
+    PenSample { time_secs, x_m, y_m, force_n, touching, impact_mps }
 }
 
 /// Positions on a circle at which the tip has the given speeds, linearly interpolated between the contacts.
 fn walked(contacts: &[TimedContact]) -> Vec<PenSample> {
     let mut samples = Vec::new();
     let mut distance_m = 0.0_f64;
-    let at = |time_secs: f64, distance_m: f64, force_n: f64| {
+    let at = |time_secs: f64, distance_m: f64, force_n: f64, impact_mps: Option<f64>| {
         let (sin, cos) = (distance_m / WALK_RADIUS_M).sin_cos();
         let (x_m, y_m) = (WALK_RADIUS_M * cos, WALK_RADIUS_M * sin);
-        PenSample { time_secs, x_m, y_m, force_n, touching: force_n > 0.0 }
+        PenSample { time_secs, x_m, y_m, force_n, touching: force_n > 0.0, impact_mps }
     };
     for pair in contacts.windows(2) {
         let [from, to] = [pair[0], pair[1]];
         let secs = to.time_secs - from.time_secs;
+        // A contact begins between two contacts of the table, and either may state its impact speed.
+        let impact_mps = [from.impact_mps, to.impact_mps].into_iter().flatten().reduce(f64::max);
         let n_steps = (secs / WALK_STEP_SECS).ceil().max(1.0);
         for step in 0..n_steps as u32 {
             let mix = |a: f64, b: f64, steps: f64| a + steps / n_steps * (b - a);
             let steps = f64::from(step);
             let time_secs = mix(from.time_secs, to.time_secs, steps);
-            samples.push(at(time_secs, distance_m, mix(from.force_n, to.force_n, steps)));
+            samples.push(at(time_secs, distance_m, mix(from.force_n, to.force_n, steps), impact_mps));
             distance_m += mix(from.speed_mps, to.speed_mps, steps + 0.5) * secs / n_steps;
         }
     }
-    samples.extend(contacts.last().map(|last| at(last.time_secs, distance_m, last.force_n)));
+    samples.extend(contacts.last().map(|last| at(last.time_secs, distance_m, last.force_n, last.impact_mps)));
     samples
 }
 
@@ -245,6 +248,7 @@ mod tests {
             y_m: -2e-3,
             force_n: 0.7,
             touching: i < 60,
+            impact_mps: (i == 0).then_some(0.2),
         };
         (0..=60).map(sample).collect()
     }
@@ -258,7 +262,7 @@ mod tests {
         for (a, b) in read.samples().iter().zip(stroke.samples()) {
             // The conversion to millimeters and back is subject to rounding.
             assert!((a.x_m - b.x_m).abs() < 1e-12 && (a.y_m - b.y_m).abs() < 1e-12);
-            assert!(a.time_secs == b.time_secs && a.touching == b.touching);
+            assert!(a.time_secs == b.time_secs && a.touching == b.touching && a.impact_mps == b.impact_mps);
             assert_eq!(a.force_n, if b.touching { b.force_n } else { 0.0 });
         }
         let repeat = Repeat { tempo: 2.0, force: 0.5 };
@@ -277,6 +281,15 @@ mod tests {
             assert!((touch.x_m.hypot(touch.y_m) - 0.02).abs() < 1e-4);
             assert!((f64::from(touch.contact.force_n) - 1.0 + 0.05 * f64::from(i)).abs() < 1e-3);
         }
+    }
+
+    #[test]
+    fn a_table_of_speeds_may_state_how_fast_the_tip_lands() {
+        let table =
+            "t_s,speed,force,speed_normal\n0,0,0,50\n0.1,100,1,0\n0.2,0,0,0\n0.3,0,0,200\n0.4,100,1,0\n";
+        let (stroke, _) = RecordedStroke::read(table.as_bytes(), PressureMap::USUAL).unwrap();
+        let impact_at = |secs| stroke.track().impact_mps_at(secs);
+        assert_eq!([impact_at(0.05), impact_at(0.35)], [Some(0.05), Some(0.2)]);
     }
 
     #[test]

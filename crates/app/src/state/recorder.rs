@@ -96,12 +96,12 @@ impl Recorder {
     /// Lifts a pen that left the range without reporting a lift.
     fn lift_pen(&mut self, time_secs: f64) {
         if let Some(last) = self.samples.last().copied().filter(|last| last.touching) {
-            self.take(Stylus::Pen, PenSample { time_secs, touching: false, ..last });
+            self.take(Stylus::Pen, PenSample { time_secs, touching: false, impact_mps: None, ..last });
         }
     }
 
     fn take(&mut self, stylus: Stylus, sample: PenSample) {
-        let PenSample { time_secs, x_m, y_m, force_n, touching } = sample;
+        let PenSample { time_secs, x_m, y_m, force_n, touching, .. } = sample;
         if ![time_secs, x_m, y_m, force_n].iter().all(|number| number.is_finite()) {
             return;
         }
@@ -128,6 +128,7 @@ impl Recorder {
                 y_m: between(last.y_m, y_m, step),
                 force_n: between(last.force_n, force_n, step),
                 touching,
+                impact_mps: None,
             }));
         }
         self.samples.push(sample);
@@ -175,7 +176,7 @@ mod tests {
     use shagreen_device::touch::Touch;
 
     fn sample(time_secs: f64, x_m: f64, touching: bool) -> PenSample {
-        PenSample { time_secs, x_m, y_m: 0.0, force_n: 0.5, touching }
+        PenSample { time_secs, x_m, force_n: 0.5, touching, ..PenSample::default() }
     }
 
     fn recorded(samples: &[(Stylus, f64, bool)]) -> Vec<(f64, bool)> {
@@ -282,6 +283,7 @@ mod tests {
             force_n: if tip { 0.7 } else { 0.0 },
             touch: Touch::default(),
             landing: None,
+            impact_mps: None,
         };
         let mut recorder = Recorder::new();
         recorder.take_pen(&[moment(500.0, Some([0.0, 0.0]), false), moment(500.01, Some([0.0, 0.0]), true)]);

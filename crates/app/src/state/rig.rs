@@ -4,11 +4,12 @@
 use anyhow::bail;
 use shagreen_core::actuator::{Actuator, ActuatorError, Drive, drive_config};
 use shagreen_core::units::{Kilograms, Volts};
-use shagreen_device::engine::ChannelMask;
+use shagreen_device::engine::{ChannelMask, FrictionConfig};
 use shagreen_device::output::{UNCALIBRATED_FULL_SCALE_MPS2, USUAL_BUFFER_FRAMES, USUAL_CEILING};
 use shagreen_device::pressure::PressureMap;
 use shagreen_device::synth::drive::DriveConfig;
 use shagreen_formats::rig_settings::ActuatorSettings;
+use shagreen_studio::driven_channels::driven_channels;
 
 use crate::strings::rig as strings;
 
@@ -130,9 +131,9 @@ impl Rig {
         self.mounted.as_ref().map(Mounted::actuator)
     }
 
-    /// Driven channels.
-    pub fn channels(&self) -> ChannelMask {
-        self.channel.map_or(ChannelMask::FIRST_TWO, ChannelMask::only)
+    /// Driven channels on an output, and the channel of the actuator's friction display; see [`driven_channels`].
+    pub fn channels(&self, is_serial: bool) -> (ChannelMask, Option<FrictionConfig>) {
+        driven_channels(self.actuator(), self.channel, is_serial)
     }
 
     /// Whether an output that was opened with the settings `other` must be reopened to apply these settings.
@@ -154,7 +155,25 @@ impl Rig {
 
 #[cfg(test)]
 mod tests {
-    use super::Rig;
+    use super::{ChannelMask, FrictionConfig, Mounted, Rig};
+    use shagreen_core::actuator::FrictionDisplay;
+    use shagreen_core::units::Hertz;
+    use shagreen_device::engine::FrictionWave;
+    use shagreen_formats::actuator_toml::built_in_actuators;
+
+    #[test]
+    fn a_friction_display_has_its_own_channel() {
+        let mut profile = built_in_actuators().unwrap().remove(0);
+        profile.friction = Some(FrictionDisplay { carrier: Hertz(120.0), channel: 2 });
+        let mounted = Some(Mounted::new(profile, None).unwrap());
+        let rig = Rig { mounted, ..Rig::default() };
+        let wave = FrictionWave::Carrier { frequency_hz: 120.0 };
+        let friction = Some(FrictionConfig { channel_idx: 1, wave });
+        assert_eq!(rig.channels(false), (ChannelMask::only(0), friction));
+        assert_eq!(rig.channels(true), (ChannelMask::FIRST_TWO, None));
+        assert!(rig.opens_unlike(&Rig::default()));
+        assert_eq!(Rig::default().channels(false), (ChannelMask::FIRST_TWO, None));
+    }
 
     #[test]
     fn only_what_the_output_depends_on_opens_it_again() {

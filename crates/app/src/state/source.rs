@@ -69,19 +69,19 @@ pub(crate) fn paths_in(text: &str) -> Vec<Source> {
 pub(crate) fn without_folders(sources: Vec<Source>) -> Vec<Source> {
     sources
         .into_iter()
-        .flat_map(|source| match std::fs::read_dir(source.path()) {
-            Ok(folder) => {
-                // Entries that cannot be inspected cannot be read either.
-                let mut files: Vec<PathBuf> =
-                    folder.filter_map(|entry| Some(entry.ok()?.path())).filter(|p| p.is_file()).collect();
-                files.retain(|path| is_importable(&Source::Path(path.clone()).ending()));
-                files.sort();
-                files.into_iter().take(MAX_OF_FOLDER).map(Source::Path).collect()
-            }
-            // Not a folder. If the path does not exist, reading it reports that.
-            Err(_) => vec![source],
-        })
+        // If the path does not exist, reading it reports that.
+        .flat_map(|source| files_in(source.path(), |_| true).unwrap_or_else(|| vec![source]))
         .collect()
+}
+
+/// Wanted files in a folder that can be imported, in alphabetical order; `None` if it is no folder that can be listed.
+pub(crate) fn files_in(folder: &Path, is_wanted: impl Fn(&Path) -> bool) -> Option<Vec<Source>> {
+    // Entries that cannot be inspected cannot be read either.
+    let entries = std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.path()));
+    let is_meant = |path: &PathBuf| path.is_file() && is_importable(&ending_of(path)) && is_wanted(path);
+    let mut files: Vec<PathBuf> = entries.filter(is_meant).collect();
+    files.sort();
+    Some(files.into_iter().take(MAX_OF_FOLDER).map(Source::Path).collect())
 }
 
 /// Sidecar of a WAV file, which states its units: imported together with it, or in the same folder.

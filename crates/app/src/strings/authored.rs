@@ -26,11 +26,10 @@ pub const NO_PICTURE: &str = "The picture is interpolated from the contributing 
 pub const PICTURE_WIDTH: &str = "Width of the surface in the picture";
 pub const PICTURE_WIDTH_HELP: &str = "Width of the surface that the picture shows, in mm";
 pub const TAKE_PICTURE_AWAY: &str = "Remove picture";
-pub const SNAPSHOTS_HELP: &str =
-    "Saved state: position, interpolation, path and picture. Click to restore it; right-click for its menu.";
+pub const SNAPSHOTS_HELP: &str = "Saved state: position, interpolation, shape, path and picture. Click to restore it; right-click for its menu.";
 pub const UNNAMED: &str = "(no name)";
 pub const KEEP: &str = "Snapshot";
-pub const KEEP_HELP: &str = "Saves the state of the selected texture (position, interpolation, path, picture). You can restore it later.";
+pub const KEEP_HELP: &str = "Saves the state of the selected texture (position, interpolation, shape, path, picture). You can restore it later.";
 pub const AS_OWN: &str = "Add as texture";
 pub const AS_OWN_HELP: &str = "Adds an authored texture with this state. You can edit it, or compare it with the current one (A, B, X).";
 

@@ -1,5 +1,9 @@
 //! Names of edits, as they follow the words "Undo" and "Redo".
 
+use shagreen_core::texture::shape::ShapeControl;
+
+use crate::strings::shape;
+
 pub const CHANGE_BLEND: &str = "Change interpolation mode";
 pub const STAY_WITHIN: &str = "Stop extrapolating";
 pub const GO_BEYOND: &str = "Extrapolate outside hull";
@@ -34,6 +38,14 @@ pub fn renamed(name: &str) -> String {
 /// Edit that gives a texture of the list this name.
 pub fn renamed_to(name: &str) -> String {
     format!("Rename to {name}")
+}
+
+pub fn shaped(name: &str, control: ShapeControl) -> String {
+    format!("Change {} of {name}", shape::name(control).to_lowercase())
+}
+
+pub fn unshaped(name: &str) -> String {
+    format!("Reset shape of {name}")
 }
 
 pub fn colored(name: &str) -> String {

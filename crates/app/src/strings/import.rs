@@ -24,6 +24,8 @@ pub const HELPER: &str = "metadata";
 pub const IS_MAP: &str =
     "Column map: it names the columns and units of the recordings that are imported with it.";
 pub const IS_SIDECAR: &str = "Sidecar file: it describes the samples of the WAV file of the same name.";
+/// What to do about directions whose angle is unknown.
+pub const STATE_DIRECTIONS: &str = "add the files of positions, or state the angles with \"shagreen import directional\" and import its library";
 pub const BROKEN: &str =
     "Reading stopped unexpectedly; close this sheet and import the files one by one to find the cause.";
 pub const READING: &str = "Reading and fitting…";

@@ -4,11 +4,18 @@ use shagreen_core::surfaces::prompt::PromptInterpretation;
 
 pub const HINT: &str = "Describe a surface: a rough, soft carpet";
 pub const FIELD: &str = "Describe a surface";
-pub const FIELD_HELP: &str = "Generates a texture from the description: a picture and an estimated position in the space (Enter). A photo dropped on the window gives a texture, too.";
+pub const FIELD_HELP: &str = "Generates a texture from the description (Enter): a picture, an estimated position in the space, and after some seconds a texture that feels as the picture looks. A photo dropped on the window gives a texture, too.";
 pub const MAKE: &str = "Generate";
 pub const MAKE_HELP: &str =
     "Generates a texture from this description. You can then refine it with the sliders.";
 pub const STOP: &str = "Stop";
+pub const SIMULATING: &str = "Simulating";
+pub const SIMULATING_HELP: &str = "Strokes the surface of the picture with a simulated pen. Until this is done, the texture is interpolated. Afterwards it feels as its picture looks.";
+pub const STOP_SIMULATION: &str = "Stop simulating";
+pub const STOP_SIMULATION_HELP: &str = "The texture remains interpolated.";
+pub const SIMULATED: &str = "Simulated from the heights that the picture shows; the list of textures has it.";
+pub const SIMULATION_BROKEN_OFF: &str =
+    "The simulation of a texture stopped unexpectedly; the texture remains interpolated";
 pub const ANOTHER: &str = "Another";
 pub const ANOTHER_HELP: &str =
     "Generates another picture and texture from the same description, with the next seed";
@@ -100,6 +107,11 @@ pub fn earlier(prompt: &str, seed: u64, by_diffusion: bool) -> String {
 /// Accessible name of the row with an estimate.
 pub fn guessed(name: &str) -> String {
     format!("Estimate: {name}")
+}
+
+/// Name of the edit that adds the simulated texture of a picture.
+pub fn simulated(name: &str) -> String {
+    format!("Simulate {name}")
 }
 
 /// Name of the edit that replaces a generated texture.

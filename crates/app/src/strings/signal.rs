@@ -23,6 +23,11 @@ pub const SAMPLES: &str = "Samples";
 /// Label of the level.
 pub const LEVEL: &str = "Level";
 
+/// Origin of an exported texture with a shape.
+pub fn shaped(origin: &str, shape: &str) -> String {
+    format!("{origin} Shape: {shape}.")
+}
+
 /// Choice of the motion.
 pub fn motion(follows_stroke: bool) -> &'static str {
     if follows_stroke { "Recorded stroke" } else { "Steady motion" }

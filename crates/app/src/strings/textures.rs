@@ -77,7 +77,7 @@ pub const SPEEDS: &str = "speeds";
 pub const FORCES: &str = "forces";
 pub const RANGE_HELP: &str =
     "Range of speeds or forces with a model. Above it, the texture does not change any further.";
-pub const FRICTION_HELP: &str = "Ratio of tangential to normal force. A vibrating pen cannot render it.";
+pub const FRICTION_HELP: &str = "Ratio of tangential to normal force while the tip slides. A vibrating pen renders only the stick-slip of a slow tip. A friction display renders all of it: its channel is in the profile of the actuator.";
 pub const NO_FRICTION: &str = "not known";
 pub const NO_LANDING: &str = "not known: taps are silent";
 pub const LEVEL_MEASURED: &str = "level at 100 mm/s, 1 N";
@@ -90,6 +90,20 @@ pub const PATH_HELP: &str =
 pub const LEVELS: &str = "Level over speed and force";
 pub const LEVELS_HELP: &str = "Level of the vibration, in dB re 1 m/s²: brighter is stronger. Dots are speed-force points with a model; all other values are interpolated.";
 pub const SPECTRA: &str = "Spectra";
+
+/// Friction coefficient, and how it is felt: as stick-slip below a speed in mm/s at a force in N, by a friction display, or
+/// not at all.
+pub fn friction(coefficient: f64, stick_slip: Option<(f64, f64)>, is_rendered: bool) -> String {
+    let stick_slip = stick_slip.map_or(String::new(), |(mm_per_s, force_n)| {
+        format!(", felt as stick-slip below {mm_per_s:.0} mm/s at {} N", (10.0 * force_n).round() / 10.0)
+    });
+    let rendered = match (is_rendered, stick_slip.is_empty()) {
+        (true, _) => ". The chosen output renders friction.",
+        (false, true) => ". The chosen output cannot render friction.",
+        (false, false) => "",
+    };
+    format!("{coefficient:.2}{stick_slip}{rendered}")
+}
 
 /// Label of the filter button, with the number of active filters.
 pub fn filter(n_on: usize) -> String {
@@ -195,8 +209,18 @@ pub fn force(force_n: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{count, range, region};
+    use super::{count, friction, range, region};
     use crate::choices::textures::{End, Region};
+
+    #[test]
+    fn friction_says_how_it_is_felt() {
+        assert_eq!(friction(0.45, None, false), "0.45. The chosen output cannot render friction.");
+        assert_eq!(friction(0.45, None, true), "0.45. The chosen output renders friction.");
+        let sticky = Some((35.4, 1.0));
+        assert_eq!(friction(0.8, sticky, false), "0.80, felt as stick-slip below 35 mm/s at 1 N");
+        let rendered = "0.80, felt as stick-slip below 35 mm/s at 1.5 N. The chosen output renders friction.";
+        assert_eq!(friction(0.8, Some((35.4, 1.52)), true), rendered);
+    }
 
     #[test]
     fn a_part_of_the_space_is_named_by_the_words_at_its_ends() {

@@ -1,5 +1,5 @@
-//! Preview: the point plays while it is dragged, and a texture plays while the pointer rests on it. Both use the automatic
-//! stroke, and both can be turned off. A project of the gallery plays while the pointer rests on it, too.
+//! Preview: the point plays while it is dragged or shaped, and a texture plays while the pointer rests on it. Both use the
+//! automatic stroke, and both can be turned off. A project of the gallery plays while the pointer rests on it, too.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ enum Pointed {
 /// What is previewed.
 #[derive(Default)]
 pub(super) struct Preview {
-    /// Whether the point is being dragged.
+    /// Whether the point or a control of its shape is being dragged.
     is_dragging: bool,
     /// What is under the pointer, and when the pointer came to it.
     pointed: Option<(Pointed, Instant)>,
@@ -83,7 +83,8 @@ impl Window {
     pub(super) fn follow_preview(&mut self, commands: &mut Vec<Command>, ctx: &Context) {
         let is_author = self.pages.workspace == Workspace::Author && !self.sheet.is_open();
         let is_held = ctx.input(|i| i.pointer.primary_down());
-        let is_moved = |command: &Command| matches!(command, Command::Edit(Edit::MovePoint(_)));
+        let is_moved =
+            |command: &Command| matches!(command, Command::Edit(Edit::MovePoint(_) | Edit::SetShape(..)));
         let may_drag = is_author && !self.files.settings.is_silent_while_dragging;
         let dragged = self.preview.is_dragging || commands.iter().any(is_moved);
         self.preview.is_dragging = may_drag && is_held && dragged && ctx.dragged_id().is_some();

@@ -3,19 +3,24 @@
 use std::sync::Arc;
 
 use egui::Context;
-use shagreen_formats::library::free_name;
+use shagreen_core::space::SpacePoint;
+use shagreen_formats::library::{TextureEntry, free_id, free_name, id_from_name};
 use shagreen_formats::picture::Picture;
 use shagreen_formats::project::AuthoredTexture;
+use shagreen_studio::felt::{FELT_ORIGIN, felt_entry, replaceable_felt};
 
 use super::Window;
 use crate::author::new_texture::next_color;
-use crate::author::prompt::{axis_names, has_still};
+use crate::author::prompt::{Simulated, axis_names, has_still};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
 use crate::panel::Panel;
 use crate::state::edit::Edit;
 use crate::strings::prompt as words;
 use crate::workspace::Workspace;
+
+/// Smallest distance of a new texture from the others, in points of the axes.
+const LEAST_DISTANCE: f64 = 0.1;
 
 impl Window {
     /// Executes a command about prompts, and records the prompt in the settings.
@@ -31,13 +36,7 @@ impl Window {
 
     /// Adds the generated texture, or replaces the one that it was generated for.
     pub(super) fn collect_prompt(&mut self, ctx: &Context) {
-        // Results wait while the user drags, a sheet is open, another workspace is visible, or a blind comparison runs.
-        let is_free = !self.gesture.was_holding || ctx.text_edit_focused();
-        if !is_free
-            || self.sheet.is_open()
-            || self.pages.workspace != Workspace::Author
-            || self.compare.is_hidden()
-        {
+        if !self.takes_results(ctx) {
             return;
         }
         let Some(done) = self.prompts.collect() else { return };
@@ -53,9 +52,11 @@ impl Window {
         let is_there = |(key, picture): &(u32, Arc<Picture>)| {
             self.project.authored.iter().any(|texture| has_still(texture, *key, picture))
         };
-        let edits = if let Some((key, _)) = arrived.replaces.filter(is_there) {
+        let edits: Vec<Edit> = if let Some((key, _)) = arrived.replaces.filter(is_there) {
             let (at, picture, notes) = (guess.at(), Arc::clone(&guess.picture), guess.notes());
-            vec![Edit::Select(key), Edit::Remake { at, picture, notes }]
+            // Selecting what is selected would end solo as a step of its own.
+            let select = (self.project.texture().key != key).then_some(Edit::Select(key));
+            select.into_iter().chain([Edit::Remake { at, picture, notes }]).collect()
         } else {
             let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
             let is_taken = |name: &str| self.project.authored.iter().any(|texture| texture.name == name);
@@ -72,6 +73,71 @@ impl Window {
         for edit in edits {
             self.carry_out(Command::Edit(edit), ctx);
         }
-        self.prompts.keep(guess, self.project.texture().key);
+        self.prompts.keep(guess, self.project.texture().key, ctx);
+    }
+
+    /// Whether results may change the project: they wait while the user drags, a sheet is open, another workspace is
+    /// visible, or a blind comparison runs.
+    fn takes_results(&self, ctx: &Context) -> bool {
+        let is_free = !self.gesture.was_holding || ctx.text_edit_focused();
+        is_free
+            && !self.sheet.is_open()
+            && self.pages.workspace == Workspace::Author
+            && !self.compare.is_hidden()
+    }
+
+    /// Adds the texture that was simulated for a generated picture, unless its authored texture has another picture by now.
+    pub(super) fn collect_simulated(&mut self, ctx: &Context) {
+        if !self.takes_results(ctx) {
+            return;
+        }
+        let Some(done) = self.prompts.collect_simulated() else { return };
+        let Simulated { of: (key, picture), model } = match done {
+            Ok(simulated) => simulated,
+            Err(reason) => return self.session.say(reason),
+        };
+        let Some(texture) = self.project.authored.iter().find(|texture| has_still(texture, key, &picture))
+        else {
+            return;
+        };
+        let textures = self.session.textures();
+        let is_taken = |id: &str| textures.iter().any(|entry| entry.id == id);
+        let id = free_id(&id_from_name(&texture.name), is_taken);
+        let earlier = self.prompts.simulated_for(key).cloned();
+        let at = self.position_for(key, texture.at, earlier.as_ref());
+        let picture = Picture::clone(&picture);
+        let entry = Arc::new(felt_entry(id, &texture.name, &texture.notes, model, picture, at));
+        self.gesture.begin_another();
+        self.carry_out(Command::Edit(Edit::JoinSimulated { key, entry: Arc::clone(&entry), earlier }), ctx);
+        self.prompts.note_simulated(key, entry);
+    }
+
+    /// Selected authored texture while the texture that was simulated for it plays alone.
+    pub(super) fn simulated_texture(&self) -> Option<Arc<AuthoredTexture>> {
+        let texture = self.project.authored.get(self.project.selected)?;
+        let solo = self.project.solo.as_ref()?;
+        let alone = self.project.joined.iter().find(|joined| joined.id == *solo)?;
+        let is_its = alone.origin == FELT_ORIGIN
+            && alone.picture.as_ref().is_some_and(|picture| texture.picture.as_deref() == Some(picture));
+        is_its.then(|| Arc::clone(texture))
+    }
+
+    /// Position of a texture that is simulated for the authored texture with this key, if it may have one: a built space and
+    /// chosen attributes place only what has been rated, and two textures at one position form no space. `earlier` was
+    /// simulated for it before.
+    fn position_for(
+        &self,
+        key: u32,
+        at: SpacePoint,
+        earlier: Option<&Arc<TextureEntry>>,
+    ) -> Option<SpacePoint> {
+        let is_own = self.project.space.is_none() && self.project.axes.is_none();
+        let replaced = earlier.filter(|earlier| replaceable_felt(&self.project, key, earlier).is_some());
+        let textures = self.session.textures();
+        let is_far = |(texture, site): &(usize, SpacePoint)| {
+            replaced.is_some_and(|replaced| replaced.id == textures[*texture].id)
+                || site.distance(at) > LEAST_DISTANCE
+        };
+        (is_own && self.session.space().sites().iter().all(is_far)).then_some(at)
     }
 }

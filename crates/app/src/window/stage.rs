@@ -1,19 +1,24 @@
 //! Stage: the lower row of a page, with the stroke pad and the scope.
 
 use egui::{Panel as Side, Ui};
+use shagreen_core::texture::shape::Shape;
 use shagreen_device::touch::Touch;
+use shagreen_formats::picture::Picture;
 
 use super::Window;
-use crate::author::pad::{PadState, pad_ui};
+use crate::author::pad::{PadPicture, PadState, pad_ui};
 use crate::author::scope::{ScopeState, scope_ui};
 use crate::command::Command;
 use crate::look::theme::{PAD_WIDTH, STAGE_HEIGHTS, STAGE_SHARE};
 use crate::panel::Panel;
-use crate::state::own_surface::OwnSurface;
+use crate::session::Session;
+use crate::state::own_surface::{OwnSurface, SurfacePicture};
 use crate::state::pad_surface::{N_LIGHTS, USUAL_LIGHT};
 
 /// Distance from the middle of the pad within which the tip does not move the light, in m.
 const LIGHT_FROM_M: f32 = 0.004;
+/// Relative difference up to which a picture and a height map have the same width.
+const SAME: f64 = 1e-3;
 /// Maximum number of pictures that are blended for the pad. More take longer without a visible difference.
 const MAX_PICTURED: usize = 6;
 
@@ -32,10 +37,17 @@ impl Window {
         let parents = pictured(parents);
         let light = light_of(self.session.touch());
         let blended = if parents.is_empty() { None } else { self.pictures.blend(ctx, &parents, light) };
-        let is_felt = self.session.felt_name().is_some();
-        let heard = self.heard_texture().filter(|_| !self.compare.is_hidden() && !is_felt);
-        let own = heard.and_then(|texture| texture.picture.clone());
-        let own = self.pages.stage.own_surface.follow(own.as_ref(), ctx, light);
+        let plays_signal = self.session.felt_name().is_some();
+        let heard = self.heard_texture().or_else(|| self.simulated_texture());
+        let own = heard.filter(|_| !self.compare.is_hidden() && !plays_signal);
+        let own = own.and_then(|texture| texture.picture.clone()).map(|picture| {
+            let is_felt = felt_picture(&self.session) == Some(&*picture);
+            SurfacePicture { picture, is_felt }
+        });
+        let is_felt = own.as_ref().is_some_and(|own| own.is_felt);
+        let own = self.pages.stage.own_surface.follow(own, ctx, light);
+        let own = own.map(|(texture, size_mm)| PadPicture { texture, size_mm, is_felt });
+        let blended = blended.map(|(texture, size_mm)| PadPicture { texture, size_mm, is_felt: false });
         let picture = own.or(blended);
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         let (pad, scope, place) =
@@ -66,6 +78,23 @@ impl Window {
             self.session.set_hand(Some(self.pages.stage.pad.input()));
         }
     }
+}
+
+/// Picture of the only audible texture of the list, if its height map is felt where the picture shows it: neither turned nor
+/// stretched.
+fn felt_picture(session: &Session) -> Option<&Picture> {
+    let authored = session.authored()?;
+    let [(texture, _)] = authored.parents[..] else { return None };
+    let entry = session.textures().get(texture)?;
+    // An interpolated texture has the shape of the result; a texture of the list gets it when it plays.
+    let (model, shape) = match &authored.model {
+        Some(model) => (model, Shape::default()),
+        None => (&entry.model, authored.shape),
+    };
+    let (map, picture) = (model.height_map()?, entry.picture.as_ref()?);
+    let side_mm = 1e3 * map.side_m() * shape.grain;
+    let is_turned = model.turn_rad() != 0.0 || shape.direction_deg != 0.0;
+    (!is_turned && (side_mm - picture.millimeters).abs() < SAME * side_mm).then_some(picture)
 }
 
 /// Textures with the largest weights, and their weights normalized to a sum of one, for the blended picture.

@@ -29,6 +29,7 @@ mod prompts;
 mod rig;
 mod scope;
 mod screenshots;
+mod shape;
 mod signals;
 mod strokes;
 mod textures;

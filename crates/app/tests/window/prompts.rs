@@ -14,13 +14,18 @@ use crate::support::{
     Author, author, click, drop_files, painted, says, unnamed_controls, wait, window, write_into,
 };
 
-/// Generates a texture from a prompt and waits for it.
+/// Generates a texture from a prompt and waits for it, until it is simulated.
 fn describe(harness: &mut Author, prompt: &str) {
     let n = window(harness).project().authored.len();
     write_into(harness, words::FIELD, prompt);
     harness.key_press(Key::Enter);
     wait(harness, "it was made", |h| window(h).project().authored.len() > n);
+    wait_for_simulation(harness);
     harness.run_steps(4);
+}
+
+fn wait_for_simulation(harness: &mut Author) {
+    wait(harness, "it was simulated", |h| !window(h).prompts().is_simulating());
 }
 
 fn seed(harness: &Author) -> u64 {
@@ -54,8 +59,10 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
 
     click(&mut harness, words::ANOTHER);
     wait(&mut harness, "another was made", |h| !window(h).prompts().is_busy());
+    wait_for_simulation(&mut harness);
     harness.run_steps(3);
     assert_eq!(seed(&harness), 2);
+    assert_eq!(window(&harness).project().joined.len(), 1, "the second simulation replaces the first");
     let other = window(&harness).project().texture().clone();
     assert_eq!((window(&harness).project().authored.len(), other.key), (2, texture.key), "in its place");
     assert_ne!(other.picture, texture.picture);
@@ -68,10 +75,56 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     assert!(window(&harness).prompts().guess_of(&moved).unwrap().at().rough_smooth < 50.0);
     click(&mut harness, words::DISMISS);
     assert!(!says(&harness, "Understood:"));
-    for _ in 0..3 {
+    // The slider, and twice the simulation and the texture.
+    for _ in 0..5 {
         click(&mut harness, strings::UNDO);
     }
     assert_eq!(window(&harness).project().authored.len(), 1, "undone");
+    assert!(window(&harness).project().joined.is_empty());
+}
+
+#[test]
+fn a_generated_texture_is_its_picture_once_it_is_simulated() {
+    let mut harness = author();
+    write_into(&mut harness, words::FIELD, "grooved hard plastic with 5 mm ridges");
+    harness.key_press(Key::Enter);
+    wait(&mut harness, "it was made", |h| window(h).project().authored.len() == 2);
+    wait_for_simulation(&mut harness);
+    harness.run_steps(3);
+    let project = window(&harness).project().clone();
+    let [simulated] = &project.joined[..] else { panic!("{} joined", project.joined.len()) };
+    assert_eq!(project.solo.as_deref(), Some(simulated.id.as_str()));
+    assert!(project.texture().blend.locked.contains(&simulated.id));
+    assert_eq!(simulated.at(), Some(project.texture().at));
+    assert_eq!(simulated.picture.as_ref(), project.texture().picture.as_deref());
+    let map = simulated.model.height_map().expect("the ridges are felt where the tip is");
+    // A whole number of ridges, and the whole picture.
+    let n_ridges = map.side_m() / 5e-3;
+    assert!((n_ridges - n_ridges.round()).abs() < 1e-9, "{n_ridges}");
+    assert!((1e3 * map.side_m() - simulated.picture.as_ref().unwrap().millimeters).abs() < 1e-9);
+    assert!(says(&harness, words::SIMULATED));
+    // One step of its own.
+    click(&mut harness, strings::UNDO);
+    let undone = window(&harness).project();
+    assert_eq!((undone.authored.len(), undone.joined.len(), &undone.solo), (2, 0, &None));
+}
+
+#[test]
+fn a_simulation_that_is_stopped_leaves_the_interpolated_texture() {
+    let mut harness = author();
+    write_into(&mut harness, words::FIELD, "a brushed aluminium plate");
+    harness.key_press(Key::Enter);
+    wait(&mut harness, "it was made", |h| window(h).project().authored.len() == 2);
+    if window(&harness).prompts().is_simulating() {
+        harness.run_steps(1);
+        if let Some(stop) = harness.query_by_label(words::STOP_SIMULATION) {
+            stop.click();
+        }
+    }
+    wait_for_simulation(&mut harness);
+    harness.run_steps(3);
+    assert!(harness.query_by_label(words::STOP_SIMULATION).is_none());
+    assert_eq!(window(&harness).project().authored.len(), 2);
 }
 
 #[test]
@@ -86,6 +139,7 @@ fn words_that_say_nothing_are_answered_and_earlier_ones_come_back() {
     harness.run_steps(6);
     click(&mut harness, &words::earlier("polished steel", 1, false));
     wait(&mut harness, "it was made again", |h| window(h).project().authored.len() == 4);
+    wait_for_simulation(&mut harness);
     let again = window(&harness).project().texture();
     assert_eq!((again.at, &again.picture), (steel.at, &steel.picture), "the same words and seed");
     assert_eq!(again.name, "polished steel 2");
@@ -114,12 +168,16 @@ fn typing_goes_on_while_a_texture_is_made_and_each_result_is_one_step() {
     };
     type_m(&mut harness);
     wait(&mut harness, "it was made", |h| window(h).project().authored.len() == 2);
+    wait_for_simulation(&mut harness);
     type_m(&mut harness);
     let typed = harness.get_by_role_and_label(Role::TextInput, words::FIELD).value();
     assert_eq!(typed.as_deref(), Some("roughmm"));
     harness.key_press(Key::Enter);
     wait(&mut harness, "another was made", |h| window(h).project().authored.len() == 3);
-    click(&mut harness, strings::UNDO);
+    wait_for_simulation(&mut harness);
+    for _ in 0..2 {
+        click(&mut harness, strings::UNDO);
+    }
     assert_eq!(window(&harness).project().authored.len(), 2, "each is undone on its own");
     // Elsewhere the letter is a shortcut again.
     harness.run_steps(2);

@@ -17,11 +17,12 @@ use shagreen_app::command::{Command, FileCommand};
 use shagreen_app::state::compare::{CompareCommand, Side};
 use shagreen_app::state::edit::Edit;
 use shagreen_app::state::files::StoragePaths;
-use shagreen_app::strings::{self, build, conflict, document, help, import, map, signals};
+use shagreen_app::strings::{self, build, conflict, document, help, import, map, shape, signals};
 use shagreen_app::workspace::Workspace;
 use shagreen_core::space::heat_map::Quantity;
 use shagreen_core::space::space_build::FeatureKind;
 use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::shape::ShapeControl;
 use shagreen_core::units::Hertz;
 use shagreen_formats::project::write_project;
 use shagreen_studio::export::WAV;
@@ -90,6 +91,13 @@ fn author_views(harness: &mut Author, look: &mut Look<'_>) {
     carry_out(harness, Command::Edit(Edit::Solo(Some(first))));
     show(harness, look, "Author, texture selected", Kind::Workspace);
     carry_out(harness, Command::Edit(Edit::Solo(None)));
+    click(harness, shape::HEADING);
+    for control in ShapeControl::ALL {
+        carry_out(harness, Command::Edit(Edit::SetShape(control, *control.limits().start())));
+    }
+    show(harness, look, "Author, shape", Kind::Workspace);
+    carry_out(harness, Command::Edit(Edit::ResetShape));
+    click(harness, shape::HEADING);
     carry_out(harness, Command::TogglePathTool);
     show(harness, look, "Author, path tool", Kind::Workspace);
     for name in ["Brick", "Cotton weave"] {

@@ -218,6 +218,7 @@ pub fn fitted_actuator(base: Option<Actuator>, fit: &Fit, load: Option<Kilograms
         physical: Physical::default(),
         lowest: USUAL_LOWEST,
         calibrated: None,
+        friction: None,
     });
     let physical = Physical {
         force_factor_n_per_a: None,

@@ -17,6 +17,7 @@ pub use crate::actuator::voice_coil::headroom::Headroom;
 pub use crate::actuator::voice_coil::inverse::{inverse, inverse_gain_bound};
 pub use crate::actuator::voice_coil::response::Response;
 
+use crate::actuator::friction_display::{FRICTION_CARRIERS_HZ, FRICTION_CHANNELS, FrictionDisplay};
 use crate::units::{Hertz, Kilograms, Volts};
 
 /// Default lowest frequency of the inverse filter.
@@ -48,6 +49,8 @@ pub struct Actuator {
     pub lowest: Hertz,
     /// Accuracy of the response, if it was fitted to a recording.
     pub calibrated: Option<Calibrated>,
+    /// Display that renders friction beside the coil, if there is one.
+    pub friction: Option<FrictionDisplay>,
 }
 
 /// Measured response of an actuator, and the load during the measurement.
@@ -290,6 +293,16 @@ pub fn validate(actuator: &Actuator) -> Result<(), ActuatorError> {
     for (what, value, most, needs) in bounded {
         if let Some(value) = value.filter(|value| !(*value > 0.0 && *value <= most)) {
             return Err(ActuatorError::Number { what, value, needs });
+        }
+    }
+    if let Some(FrictionDisplay { carrier, channel }) = actuator.friction {
+        if !FRICTION_CARRIERS_HZ.contains(&carrier.0) {
+            let (what, needs) = ("the carrier of the friction display in Hz", "20 to 80000");
+            return Err(ActuatorError::Number { what, value: carrier.0, needs });
+        }
+        if !FRICTION_CHANNELS.contains(&channel) {
+            let (what, needs) = ("the channel of the friction display", "1 to 64");
+            return Err(ActuatorError::Number { what, value: f64::from(channel), needs });
         }
     }
     let errors = calibrated.map(|c| {

@@ -1,5 +1,6 @@
 //! Fitting of a texture model to stroke recordings.
 
+pub mod directional;
 mod error;
 mod heldout;
 mod pieces;
@@ -155,15 +156,8 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
         return Err(FitError::Empty);
     }
     let pieces::Cut { pieces, rate, mut notes } = pieces::cut(recordings, options.rate)?;
-    let highest = highest_order(rate);
-    if let Some(order) = options.order.filter(|order| *order == 0 || *order > highest) {
-        return Err(FitError::OrderAsked { order, highest });
-    }
     let surface = surface::Surface::new(pieces.iter().collect());
-    let order = match options.order {
-        Some(order) => order,
-        None => surface.order(MIN_ORDER..=highest)?,
-    };
+    let order = order_of(&surface, rate, options.order)?;
     let model = surface.model(rate, order, options.interpolation)?;
     let tap = landing(recordings, &mut notes);
     let model = model.with_tap(tap.map(|t| t.tap));
@@ -177,13 +171,7 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
         level_mps2: piece.mean_square.sqrt(),
         comparison,
     });
-    let coverage = hull_share(&surface.shares());
-    if coverage < THIN_COVERAGE {
-        notes.push(format!(
-            "The strokes cover {:.0} % of the speed-force plane; elsewhere the texture is extrapolated from the nearest strokes. Record more speeds and forces.",
-            100.0 * coverage
-        ));
-    }
+    let coverage = coverage_of(&surface, &mut notes);
     let report = FitReport {
         segments: segments.collect(),
         rate,
@@ -195,6 +183,28 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
         notes,
     };
     Ok(Fitted { model, report })
+}
+
+/// Predictor order that was asked for, or the one that the Bayesian information criterion prefers.
+fn order_of(surface: &surface::Surface<'_>, rate: Hertz, asked: Option<usize>) -> Result<usize, FitError> {
+    let highest = highest_order(rate);
+    match asked {
+        Some(order) if order == 0 || order > highest => Err(FitError::OrderAsked { order, highest }),
+        Some(order) => Ok(order),
+        None => surface.order(MIN_ORDER..=highest),
+    }
+}
+
+/// Share of the speed-force plane that the segments cover, with a note if it is small.
+fn coverage_of(surface: &surface::Surface<'_>, notes: &mut Vec<String>) -> f64 {
+    let coverage = hull_share(&surface.shares());
+    if coverage < THIN_COVERAGE {
+        notes.push(format!(
+            "The strokes cover {:.0} % of the speed-force plane; elsewhere the texture is extrapolated from the nearest strokes. Record more speeds and forces.",
+            100.0 * coverage
+        ));
+    }
+    coverage
 }
 
 /// Tap transient of the recordings, if the fit explains enough of the energy.

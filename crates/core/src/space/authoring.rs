@@ -14,10 +14,10 @@ use self::layers::mean_tap;
 use crate::maths::natural_neighbor::NaturalNeighbors;
 use crate::space::inverse_distance::inverse_distance;
 use crate::space::{Location, Space, SpacePoint};
-use crate::texture::TextureModel;
 use crate::texture::blend::Mode;
-use crate::texture::relief::Relief;
+use crate::texture::shape::Shape;
 use crate::texture::tap::Tap;
+use crate::texture::{TextureModel, TextureModelError};
 
 /// Weighting of the textures in the interpolation modes that combine a few textures.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -126,6 +126,8 @@ pub struct Authored {
     pub model: Option<TextureModel>,
     /// Pinned texture near the point and its weight in the output signal.
     pub lock: Option<(usize, f64)>,
+    /// Shape of the result. The interpolated texture already has it; textures of the library do not.
+    pub shape: Shape,
 }
 
 /// An audible texture.
@@ -142,7 +144,18 @@ impl Authored {
     pub fn alone(texture: usize, at: SpacePoint, mode: Mode) -> Self {
         let location = Location { at, clamped: false, corners: Vec::new() };
         let parents = vec![(texture, 1.0)];
-        Self { location, is_extrapolated: false, parents, mode, model: None, lock: Some((texture, 1.0)) }
+        let (model, lock, shape) = (None, Some((texture, 1.0)), Shape::default());
+        Self { location, is_extrapolated: false, parents, mode, model, lock, shape }
+    }
+
+    /// Returns the result in this shape. Textures of the library among its voices must be shaped before they play.
+    ///
+    /// # Errors
+    /// As [`Shape::apply`].
+    pub fn shaped(mut self, shape: &Shape) -> Result<Self, TextureModelError> {
+        self.model = self.model.map(|model| shape.apply(&model)).transpose()?;
+        self.shape = *shape;
+        Ok(self)
     }
 
     /// Audible textures and their weights, at most three, to be mixed in mode [`Authored::mixing`]. Empty if the mode
@@ -168,11 +181,11 @@ impl Authored {
         }
     }
 
-    /// Tap transient: weighted geometric mean over the known tap transients of the audible textures. `of` returns the
-    /// tap transient of a library texture.
+    /// Tap transient: weighted geometric mean over the known tap transients of the audible textures, in the shape of the
+    /// result. `of` returns the tap transient of a library texture, without a shape.
     pub fn tap(&self, of: impl Fn(usize) -> Option<Tap>) -> Option<Tap> {
         let known = |(voice, share): (Voice<'_>, f64)| match voice {
-            Voice::Texture(texture) => (of(texture), share),
+            Voice::Texture(texture) => (self.shape.tap(of(texture)), share),
             Voice::Made(model) => (model.tap(), share),
         };
         mean_tap(self.voices().into_iter().map(known))
@@ -206,8 +219,8 @@ impl Authoring {
         self
     }
 
-    /// Disables reliefs in interpolated textures. Adding up reliefs of 65,000 values is too slow for maps with
-    /// thousands of points.
+    /// Disables reliefs and height maps in interpolated textures. Adding up their tens of thousands of values is too
+    /// slow for maps with thousands of points.
     #[must_use]
     pub fn without_reliefs(mut self) -> Self {
         self.has_reliefs = false;
@@ -225,8 +238,15 @@ impl Authoring {
         let location = self.space.locate(point)?;
         let models = self.models.as_deref();
         let mode = blending.mode;
-        let mut authored =
-            Authored { location, is_extrapolated: false, parents: Vec::new(), mode, model: None, lock: None };
+        let mut authored = Authored {
+            location,
+            is_extrapolated: false,
+            parents: Vec::new(),
+            mode,
+            model: None,
+            lock: None,
+            shape: Shape::default(),
+        };
         let corners = &authored.location.corners;
         match mode {
             Mode::Paper => authored.parents = inverse_distance(&self.space, &authored.location),
@@ -239,7 +259,7 @@ impl Authoring {
                 // A weighted mean of textures is a valid texture; if rounding makes it invalid, the output is silent.
                 let mean = |models: &Models| {
                     let model = models.mean(&authored.parents).ok()?;
-                    Some(model.with_relief(self.relief(models, &authored.parents)))
+                    Some(self.layered(model, models, &authored.parents))
                 };
                 authored.model = models.and_then(mean);
             }
@@ -255,9 +275,8 @@ impl Authoring {
                     authored.parents = models.weights(reached);
                     // Far from all textures, a spectrum may exceed the limits of a texture model; then the output is
                     // silent.
-                    let relief = self.relief(models, &authored.parents);
-                    authored.model =
-                        models.texture(reached, None).ok().map(|model| model.with_relief(relief));
+                    let model = models.texture(reached, None).ok();
+                    authored.model = model.map(|model| self.layered(model, models, &authored.parents));
                     authored.lock = self.lock(reached, &blending.locked);
                     if let Some((locked, share)) = authored.lock {
                         for (texture, weight) in &mut authored.parents {
@@ -282,15 +301,21 @@ impl Authoring {
             // An invalid texture gives `None`, as in `author`.
             (Some(lock), Some(models)) => {
                 let model = models.texture(authored.location.at, Some(lock)).ok()?;
-                Some(model.with_relief(self.relief(models, &authored.parents)))
+                Some(self.layered(model, models, &authored.parents))
             }
             _ => authored.model,
         }
     }
 
-    /// Weighted sum of the textures' reliefs, or `None` if reliefs are disabled.
-    fn relief(&self, models: &Models, parents: &[(usize, f64)]) -> Option<Arc<Relief>> {
-        if self.has_reliefs { models.relief(parents) } else { None }
+    /// `model` with the layers that are combined by the weights of the textures, without reliefs and height maps if
+    /// they are disabled.
+    fn layered(&self, model: TextureModel, models: &Models, parents: &[(usize, f64)]) -> TextureModel {
+        let model = model.with_stick_slip(models.stick_slip(parents)).with_turn_rad(models.turn_rad(parents));
+        if self.has_reliefs {
+            model.with_relief(models.relief(parents)).with_height_map(models.height_map(parents))
+        } else {
+            model
+        }
     }
 
     /// Natural-neighbor weights. On the hull boundary, where Voronoi areas are infinite, the result is the barycentric

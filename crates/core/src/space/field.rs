@@ -1,15 +1,18 @@
-//! Field interpolation: vibration spectrum, tap transient and friction as smooth functions over the whole space.
+//! Field interpolation: vibration spectra, tap transient and friction as smooth functions over the whole space.
 //!
 //! Log spectra of textures lie near a low-dimensional surface. They are decomposed into principal components, and the
 //! scores of each component become a smoothing spline over the space ([`crate::maths::smoother`]). All components share
 //! one ridge parameter, chosen by generalized cross-validation. Every point is interpolated from all textures. Even at
 //! the position of a texture, its neighbors contribute, so deviations that no neighbor confirms are smoothed away.
 
+mod anisotropy;
+
 use nalgebra::{DMatrix, SymmetricEigen};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::maths::smoother::{Smoother, Surface, scattered};
 use crate::maths::triangulation::Xy;
+use crate::space::field::anisotropy::Anisotropy;
 use crate::space::sampled::{SampledGrain, Sampling};
 use crate::texture::tap::Tap;
 use crate::texture::{TextureModel, TextureModelError};
@@ -22,6 +25,8 @@ const LEFT_OUT: f64 = 0.0005;
 const MOST_FOR_COMPONENTS: usize = 200;
 /// Extrapolation limit: fraction of a component's range by which a value may exceed the range of all textures.
 const BEYOND: f64 = 0.25;
+/// The same for tap transients: a surface must not land harder than the hardest of the textures that it is made of.
+const BEYOND_OF_TAPS: f64 = 0.0;
 /// Lower limit of friction coefficients; smaller values are raised to it before the logarithm.
 pub(crate) const LEAST_FRICTION: f64 = 1e-3;
 /// Lower limits of the frequency in Hz, decay rate in 1/s and amplitude in m/s² of a tap transient. Smaller values are
@@ -42,6 +47,8 @@ pub(crate) struct Field {
     /// Components, concatenated; each has the length of `mean`.
     components: Vec<f32>,
     scores: Limited,
+    /// Difference of the grain along the lay; `None` if all textures are isotropic.
+    anisotropy: Option<Anisotropy>,
     friction: Option<Limited>,
     tap: Option<Limited>,
 }
@@ -55,11 +62,11 @@ struct Limited {
 }
 
 impl Limited {
-    /// Surfaces through values with one row per position.
-    fn new(smoother: &Smoother, values: &DMatrix<f64>) -> Self {
+    /// Surfaces through values with one row per position. `beyond` is the margin as a fraction of the range.
+    fn new(smoother: &Smoother, values: &DMatrix<f64>, beyond: f64) -> Self {
         let limits = values.column_iter().map(|values| {
             let (low, high) = (values.min(), values.max());
-            let room = BEYOND * (high - low);
+            let room = beyond * (high - low);
             (low - room, high + room)
         });
         Self { limits: limits.collect(), surface: smoother.surface(values) }
@@ -75,7 +82,10 @@ impl Limited {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Site<'a> {
     pub(crate) at: Xy,
+    /// Grain across the lay.
     pub(crate) grain: &'a SampledGrain,
+    /// Grain along the lay; `None` for an isotropic texture.
+    pub(crate) along: Option<&'a SampledGrain>,
     pub(crate) friction: Option<f64>,
     pub(crate) tap: Option<Tap>,
 }
@@ -98,12 +108,15 @@ impl Field {
         let places: Vec<Xy> = sites.iter().map(|site| site.at).collect();
         let smoother = Smoother::fitted(&places, &scores)?;
         Some(Self {
-            scores: Limited::new(&smoother, &scores),
+            scores: Limited::new(&smoother, &scores, BEYOND),
             components: components.iter().map(|x| *x as f32).collect(),
             mean: mean.into_iter().map(|x| x as f32).collect(),
             smoother,
-            friction: over_known(sites, |site| site.friction.map(|f| vec![f.max(LEAST_FRICTION).ln()])),
-            tap: over_known(sites, |site| site.tap.map(|tap| ln_tap(tap).to_vec())),
+            anisotropy: Anisotropy::new(sites),
+            friction: over_known(sites, BEYOND, |site| {
+                site.friction.map(|f| vec![f.max(LEAST_FRICTION).ln()])
+            }),
+            tap: over_known(sites, BEYOND_OF_TAPS, |site| site.tap.map(|tap| ln_tap(tap).to_vec())),
         })
     }
 
@@ -122,6 +135,7 @@ impl Field {
         Arch::new().dispatch(AddAll { scores: &scores, components: &self.components, to: &mut ln_psd });
         let mut ln_friction = self.friction.as_ref().map(|surface| surface.at(at)[0]);
         let mut tap = self.tap.as_ref().map(|surface| surface.at(at));
+        let difference = self.anisotropy.as_ref().map(|of| of.at(&self.weights(at), towards));
         if let Some((own, share)) = towards {
             let mix = |field: f64, own: f64| field + share * (own - field);
             for (field, own) in ln_psd.iter_mut().zip(&own.grain.ln_psd) {
@@ -136,7 +150,12 @@ impl Field {
                 }
             }
         }
-        sampling.texture_of_spectra(&ln_psd, ln_friction.map(f64::exp), tap.map(|tap| tap_from_ln(&tap)))
+        let along = difference.map(|difference| {
+            let along: Vec<f32> = ln_psd.iter().zip(difference).map(|(across, more)| across + more).collect();
+            sampling.nodes_of_spectra(&along)
+        });
+        let across = sampling.nodes_of_spectra(&ln_psd);
+        sampling.texture(across, along, ln_friction.map(f64::exp), tap.map(|tap| tap_from_ln(&tap)))
     }
 
     /// Weight of each texture at a point, in the order of the sites. Weights sum to one and may be negative.
@@ -211,14 +230,18 @@ fn components(centered: &DMatrix<f64>) -> DMatrix<f64> {
     components
 }
 
-/// Surface over the sites with a known value; `None` if there are none.
-fn over_known(sites: &[Site<'_>], known: impl Fn(&Site<'_>) -> Option<Vec<f64>>) -> Option<Limited> {
+/// Surface over the sites with a known value, with the margin of [`Limited::new`]; `None` if there are none.
+fn over_known(
+    sites: &[Site<'_>],
+    beyond: f64,
+    known: impl Fn(&Site<'_>) -> Option<Vec<f64>>,
+) -> Option<Limited> {
     let rows: Vec<(Xy, Vec<f64>)> =
         sites.iter().filter_map(|site| known(site).map(|row| (site.at, row))).collect();
     let width = rows.first()?.1.len();
     let places: Vec<Xy> = rows.iter().map(|(at, _)| *at).collect();
     let values = DMatrix::from_fn(rows.len(), width, |i, j| rows[i].1[j]);
-    Some(Limited::new(&Smoother::fitted(&places, &values)?, &values))
+    Some(Limited::new(&Smoother::fitted(&places, &values)?, &values, beyond))
 }
 
 /// A tap transient as logarithms for averaging, because stiffness and damping span decades.

@@ -5,11 +5,15 @@ mod bins;
 mod exponential;
 mod lattice;
 
+use std::sync::Arc;
+
 use crate::dsp::ar::{SIDE_BY_SIDE, levinson_side_by_side};
 use crate::dsp::lsf::{FastLsf, repair_to};
 use crate::space::sampled::bins::Bins;
 use crate::space::sampled::lattice::lattice;
+use crate::texture::height_map::HeightMap;
 use crate::texture::plane::{Grain, Plane};
+use crate::texture::stick_slip::StickSlip;
 use crate::texture::tap::Tap;
 use crate::texture::{GrainNode, MAX_ORDER, TextureModel, TextureModelError};
 use crate::units::{Contact, Hertz};
@@ -30,18 +34,35 @@ const FLOOR_PSD: f64 = 1e-15;
 /// Properties of a texture that are interpolated.
 #[derive(Clone, Copy, Debug)]
 pub struct Layers<'a> {
-    /// Vibration model of the texture.
+    /// Vibration model of the texture for strokes across its lay, and its relief.
     pub plane: &'a Plane,
+    /// Vibration model for strokes along the lay, measured at the same speeds and forces; `None` for an isotropic
+    /// texture.
+    pub along: Option<&'a Plane>,
     /// Kinetic friction coefficient, if known.
     pub friction: Option<f64>,
     /// Tap transient, if measured.
     pub tap: Option<Tap>,
+    /// Height map, if the texture has one.
+    pub height_map: Option<&'a Arc<HeightMap>>,
+    /// Parameters of stick-slip friction, if the texture has it.
+    pub stick_slip: Option<StickSlip>,
+    /// Angle of the texture's x axis on the pad, counterclockwise, in rad.
+    pub turn_rad: f64,
 }
 
 impl<'a> Layers<'a> {
-    /// Layers of a texture with this plane.
-    pub fn of(model: &TextureModel, plane: &'a Plane) -> Self {
-        Self { plane, friction: model.friction(), tap: model.tap() }
+    /// Layers of a texture with this plane, which may have a higher sample rate.
+    pub fn of(model: &'a TextureModel, plane: &'a Plane) -> Self {
+        Self {
+            plane,
+            along: plane.along(),
+            friction: model.friction(),
+            tap: model.tap(),
+            height_map: model.height_map(),
+            stick_slip: model.stick_slip(),
+            turn_rad: model.turn_rad(),
+        }
     }
 }
 
@@ -136,37 +157,36 @@ impl Sampling {
         predictors.iter().map(of_predictor).zip(levels).take(ln_psds.len()).collect()
     }
 
-    /// Texture whose vibration model has these ln densities, contact by contact, bin by bin.
-    ///
-    /// # Errors
-    /// See [`TextureModelError`].
-    pub(crate) fn texture_of_spectra(
-        &self,
-        ln_psd: &[f32],
-        friction: Option<f64>,
-        tap: Option<Tap>,
-    ) -> Result<TextureModel, TextureModelError> {
+    /// Nodes with these ln densities, contact by contact, bin by bin.
+    pub(crate) fn nodes_of_spectra(&self, ln_psd: &[f32]) -> Vec<GrainNode> {
         let spectra: Vec<&[f32]> = ln_psd.chunks_exact(self.bins.len()).collect();
         let fitted = spectra.chunks(SIDE_BY_SIDE).flat_map(|spectra| self.fit(spectra));
         let nodes = self.contacts.iter().zip(fitted);
-        let nodes = nodes.map(|(at, (lsf, level_mps2))| self.node(*at, lsf, level_mps2));
-        Ok(TextureModel::blended(self.rate, nodes.collect(), friction)?.with_tap(tap))
+        nodes.map(|(at, (lsf, level_mps2))| self.node(*at, lsf, level_mps2)).collect()
     }
 
-    /// Texture with these line spectral frequencies and ln levels, contact by contact.
+    /// Nodes with these line spectral frequencies and ln levels, contact by contact.
+    pub(crate) fn nodes_of_frequencies(&self, lsf: &[f64], ln_level: &[f64]) -> Vec<GrainNode> {
+        let nodes = self.contacts.iter().zip(lsf.chunks_exact(self.order)).zip(ln_level);
+        nodes.map(|((at, lsf), ln_level)| self.node(*at, lsf.to_vec(), ln_level.exp())).collect()
+    }
+
+    /// Texture with these nodes across its lay and, unless it is isotropic, along it.
     ///
     /// # Errors
     /// See [`TextureModelError`].
-    pub(crate) fn texture_of_frequencies(
+    pub(crate) fn texture(
         &self,
-        lsf: &[f64],
-        ln_level: &[f64],
+        across: Vec<GrainNode>,
+        along: Option<Vec<GrainNode>>,
         friction: Option<f64>,
         tap: Option<Tap>,
     ) -> Result<TextureModel, TextureModelError> {
-        let nodes = self.contacts.iter().zip(lsf.chunks_exact(self.order)).zip(ln_level);
-        let nodes = nodes.map(|((at, lsf), ln_level)| self.node(*at, lsf.to_vec(), ln_level.exp()));
-        Ok(TextureModel::blended(self.rate, nodes.collect(), friction)?.with_tap(tap))
+        let isotropic = TextureModel::blended(self.rate, across, friction)?.with_tap(tap);
+        match along {
+            Some(along) => isotropic.with_blended_along(along),
+            None => Ok(isotropic),
+        }
     }
 }
 

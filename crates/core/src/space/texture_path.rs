@@ -12,6 +12,7 @@ mod traveler;
 use crate::space::authoring::{Authoring, Blending};
 use crate::space::texture_path::route::{between, check, mean};
 use crate::texture::TextureModel;
+use crate::texture::shape::Shape;
 
 pub use crate::space::texture_path::drawn::{LEAST_STEP, UserPath};
 pub use crate::space::texture_path::render::{PathPlan, path_mix, render_path};
@@ -95,6 +96,17 @@ impl TexturePath {
             Ok(Key { stop, is_stop, model })
         };
         Self::new(route.along(), route.at_end(), places.into_iter().map(key).collect::<Result<_, _>>()?)
+    }
+
+    /// The path with every texture in this shape.
+    ///
+    /// # Errors
+    /// [`TexturePathError::Shape`].
+    pub fn shaped(mut self, shape: &Shape) -> Result<Self, TexturePathError> {
+        for key in &mut self.keys {
+            key.model = shape.apply(&key.model).map_err(TexturePathError::Shape)?;
+        }
+        Ok(self)
     }
 
     /// Quantity that is measured along the path.

@@ -10,9 +10,12 @@
 //! both axes into one signal, which is high-passed and decimated to [`STROKE_RATE`]. Lengths in m are plain `f64`;
 //! their names end in `_m`.
 //!
-//! [`prepare`] computes once what depends only on the surface, and [`press`] once what depends on the force.
+//! [`prepare`] computes once what depends only on the surface and the angle of the stroke, and [`press`] once what depends
+//! on the force. The model is that of a line: neither the ball nor its patch averages across the path. Along the lay of a
+//! surface, where heights vary across the path, the level is therefore rather too high than too low.
 
 mod dynamics;
+pub mod following;
 pub mod landing;
 mod tip;
 
@@ -20,11 +23,12 @@ use crate::dsp::dft321::dft321;
 use crate::dsp::filter::{butterworth_high_pass, decimate, filter_zero_phase};
 use crate::dsp::spectrum::rms;
 use crate::maths::rng::{Random, derive_seed};
-use crate::surfaces::contact_model::dynamics::{Path, Springs};
-use crate::surfaces::contact_model::tip::{dilate, patch_low_pass};
-use crate::surfaces::height_field::{HeightField, PROFILE_STEP_M, profile};
+use crate::surfaces::contact_model::dynamics::{Path, Run, Springs};
+use crate::surfaces::contact_model::tip::{dilate, dilate_tile, patch_low_pass};
+use crate::surfaces::height_field::{HeightField, PROFILE_STEP_M, elongation, profile};
 use crate::surfaces::material::Material;
-use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
+use crate::units::{Contact, Hertz, MetersPerSecond, Newtons, Radians};
+use std::f64::consts::FRAC_PI_2;
 
 /// Sampling rate of a simulated stroke.
 pub const STROKE_RATE: Hertz = Hertz(1000.0);
@@ -83,7 +87,13 @@ pub const PEN: Tool = Tool {
     lateral_damping_ratio: 0.5,
 };
 
-/// A material prepared for strokes: everything that does not depend on force or speed.
+/// Angle of a stroke across the lay of a surface, along x of its tile.
+pub const ACROSS: Radians = Radians(0.0);
+
+/// Angle of a stroke along the lay of a surface, along y of its tile.
+pub const ALONG: Radians = Radians(FRAC_PI_2);
+
+/// A material prepared for strokes at one angle: everything that does not depend on force or speed.
 #[derive(Clone, Debug)]
 pub struct Surface {
     material: Material,
@@ -126,19 +136,37 @@ pub enum StrokeError {
     },
 }
 
-/// Returns the surface of a material under a tool: a path of `path_m` across the material's tile ([`profile`]).
+/// Returns the surface of a material under a tool: a path of `path_m` over the material's tile at an angle ([`profile`]).
 ///
-/// `field` must be the tile of the same material. Takes some tens of milliseconds for [`STARTER_PATH_M`].
-pub fn prepare(material: &Material, field: &HeightField, tool: &Tool, path_m: f64, seed: u64) -> Surface {
+/// `field` must be the tile of the same material. The heights come from the tile; uneven friction follows the marks of the
+/// surface, so that its correlation length grows along the lay as that of the heights. Takes some tens of milliseconds for
+/// [`STARTER_PATH_M`].
+pub fn prepare(
+    material: &Material,
+    field: &HeightField,
+    tool: &Tool,
+    path_m: f64,
+    angle: Radians,
+    seed: u64,
+) -> Surface {
     let seed = derive_seed(seed, &material.id);
     let n_points = (path_m / PROFILE_STEP_M).round().max(0.0) as usize;
-    let heights_m = profile(field, n_points, derive_seed(seed, "detail"));
+    let heights_m = profile(field, n_points, angle, derive_seed(seed, "detail"));
+    let longer = elongation(material.stretch, angle);
     Surface {
         material: material.clone(),
         tool: *tool,
         tip_heights_m: dilate(&heights_m, PROFILE_STEP_M, tool.tip_radius_m),
-        friction: tip::friction_process(n_points, PROFILE_STEP_M, derive_seed(seed, "friction")),
+        friction: tip::friction_process(n_points, PROFILE_STEP_M, longer, derive_seed(seed, "friction")),
     }
+}
+
+/// Returns the height of the ball's lowest point at each point of a periodic tile of `n_cells` × `n_cells` heights, row by
+/// row, spaced by `spacing_m`.
+///
+/// The ball touches first along x, then along y, which is exact for a paraboloid with its radius.
+pub fn tip_heights_m(heights_m: &[f64], n_cells: usize, spacing_m: f64, tool: &Tool) -> Vec<f64> {
+    dilate_tile(heights_m, n_cells, spacing_m, tool.tip_radius_m)
 }
 
 /// Returns the surface as the tip meets it at this force; it serves any number of strokes.
@@ -182,31 +210,40 @@ pub fn drag(
     duration_secs: f64,
     seed: u64,
 ) -> Result<Vec<f64>, StrokeError> {
+    let run = run_over(&pressed.path, speed, duration_secs, seed)?;
+    let [normal, lateral] =
+        dynamics::accelerations_mps2(&pressed.path, &pressed.springs, pressed.force_n, &run);
+    let combined = dft321(&[&normal, &lateral]);
+    assert!(combined.is_ok(), "both axes must have {} samples", run.n_steps);
+    Ok(recorded(&combined.unwrap_or_default(), duration_secs))
+}
+
+/// Returns a stroke with its margins over a path, from a random position.
+fn run_over(path: &Path, speed: MetersPerSecond, duration_secs: f64, seed: u64) -> Result<Run, StrokeError> {
     let speed_mps = speed.0;
     require_positive("speed in m/s", speed_mps)?;
     require_positive("duration in s", duration_secs)?;
     let needed_m = (duration_secs + 2.0 * MARGIN_SECS) * speed_mps;
-    let available_m = pressed.path.length_m() - 2.0 * PATH_END_M;
+    let available_m = path.length_m() - 2.0 * PATH_END_M;
     if needed_m > available_m {
         return Err(StrokeError::PathTooShort { needed_m, available_m: available_m.max(0.0) });
     }
-    let n_samples = (duration_secs * STROKE_RATE.0).round() as usize;
-    let n_margin = (MARGIN_SECS * STROKE_RATE.0).round() as usize;
-    let n_steps = (n_samples + 2 * n_margin) * OVERSAMPLING;
-    let rate_hz = STROKE_RATE.0 * OVERSAMPLING as f64;
+    let n_samples = n_output_samples(duration_secs) + 2 * n_output_samples(MARGIN_SECS);
     let start_m = PATH_END_M + Random::new(seed).uniform() * (available_m - needed_m);
+    let rate_hz = STROKE_RATE.0 * OVERSAMPLING as f64;
+    Ok(Run { start_m, speed_mps, rate_hz, n_steps: n_samples * OVERSAMPLING })
+}
 
-    let [normal, lateral] = dynamics::accelerations_mps2(
-        &pressed.path,
-        &pressed.springs,
-        pressed.force_n,
-        &dynamics::Run { start_m, speed_mps, rate_hz, n_steps },
-    );
-    let combined = dft321(&[&normal, &lateral]);
-    assert!(combined.is_ok(), "both axes must have {n_steps} samples");
-    let mut signal = decimate(&combined.unwrap_or_default(), OVERSAMPLING);
+/// Returns the signal of a [`run_over`] a path at [`STROKE_RATE`], high-passed and without its margins.
+fn recorded(signal: &[f64], duration_secs: f64) -> Vec<f64> {
+    let mut signal = decimate(signal, OVERSAMPLING);
     filter_zero_phase(&butterworth_high_pass(2, STROKE_HIGH_PASS, STROKE_RATE), &mut signal);
-    Ok(signal[n_margin..n_margin + n_samples].to_vec())
+    let n_margin = n_output_samples(MARGIN_SECS);
+    signal[n_margin..n_margin + n_output_samples(duration_secs)].to_vec()
+}
+
+fn n_output_samples(duration_secs: f64) -> usize {
+    (duration_secs * STROKE_RATE.0).round() as usize
 }
 
 /// Returns the acceleration of one stroke at this speed and mean force, in m/s² at [`STROKE_RATE`].

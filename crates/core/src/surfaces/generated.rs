@@ -12,9 +12,19 @@ use crate::surfaces::shading::{Picture, shade_tile};
 use crate::surfaces::starter::LabelSpan;
 use crate::surfaces::touch_words::ATTRIBUTES;
 
-/// The tile of a generated surface: 20 mm, the side length of starter library pictures, at the spacing of the starter
-/// tile.
+/// The tile of a generated surface without a pattern: 20 mm, the side length of starter library pictures, at the spacing of
+/// the starter tile.
 pub const GENERATED_TILE: Tile = Tile { n_cells: 512, spacing_m: 40e-6 };
+
+/// Returns the tile of a generated surface: about as large as [`GENERATED_TILE`], and a whole number of repeats of the
+/// material's pattern, so that the pattern has exactly the period of the material.
+pub fn generated_tile(material: &Material) -> Tile {
+    let Some(pattern) = &material.pattern else { return GENERATED_TILE };
+    let repeat_m = f64::from(pattern.kind.n_periods()) * pattern.period_m;
+    let n_repeats = (GENERATED_TILE.side_m() / repeat_m).round().max(1.0);
+    let n_cells = GENERATED_TILE.n_cells;
+    Tile { n_cells, spacing_m: n_repeats * repeat_m / n_cells as f64 }
+}
 
 /// Name of this generator in the provenance of a picture.
 pub const GENERATOR: &str = "procedural generator";
@@ -32,7 +42,8 @@ pub struct Generated {
 
 /// Returns the surface that a prompt describes, deterministic for a seed; `None` without anchors.
 ///
-/// Takes about a second at [`GENERATED_TILE`] and 512 pixels.
+/// Takes about a second at 512 pixels. [`crate::surfaces::felt_material::felt`] gives the texture of the same surface, for
+/// the tile of the field and the same seed.
 pub fn generate(
     prompt: &str,
     understood: &PromptInterpretation,
@@ -42,7 +53,7 @@ pub fn generate(
     seed: u64,
 ) -> Option<Generated> {
     let material = imagine(prompt, understood, anchors, span)?;
-    let field = synthesize(&material, GENERATED_TILE, seed);
+    let field = synthesize(&material, generated_tile(&material), seed);
     let picture = shade_tile(&field, &material, n_pixels);
     Some(Generated { material, field, picture })
 }
@@ -111,10 +122,11 @@ impl Placed {
 
 #[cfg(test)]
 mod tests {
-    use super::{GENERATED_TILE, Witness, agree, generate, place};
+    use super::{GENERATED_TILE, Witness, agree, generate, generated_tile, place};
     use crate::maths::gaussian_process::Estimate;
     use crate::space::SpacePoint;
     use crate::surfaces::material::tests::plain;
+    use crate::surfaces::material::{Material, Pattern, PatternKind};
     use crate::surfaces::prompt::{Looks, OPEN, PromptInterpretation};
     use crate::surfaces::prompt_material::Anchor;
     use crate::surfaces::starter::{LabelSpan, Labels};
@@ -143,6 +155,22 @@ mod tests {
         assert_eq!(made(1).picture, first.picture);
         assert_ne!(made(2).picture, first.picture);
         assert!(generate("plain", &understood, &[], &SPAN, 32, 1).is_none());
+    }
+
+    #[test]
+    fn a_tile_holds_whole_periods_and_is_about_as_large_as_a_picture() {
+        for kind in [PatternKind::Ridges, PatternKind::Twill, PatternKind::Domes] {
+            for period_mm in [0.2, 0.9, 2.0, 3.3, 6.0, 8.0, 13.0, 20.0] {
+                let pattern = Pattern { kind, period_m: 1e-3 * period_mm, amplitude_m: 1e-6, jitter: 0.1 };
+                let tile = generated_tile(&Material { pattern: Some(pattern), ..plain() });
+                let n_periods = tile.side_m() / pattern.period_m;
+                assert!((n_periods - n_periods.round()).abs() < 1e-9, "{kind:?} {period_mm}");
+                let repeat_mm = f64::from(kind.n_periods()) * period_mm;
+                let off_mm = (1e3 * tile.side_m() - 20.48).abs();
+                assert!(off_mm <= 0.5 * repeat_mm + 1e-9 || 1e3 * tile.side_m() <= repeat_mm + 1e-9);
+            }
+        }
+        assert_eq!(generated_tile(&plain()), GENERATED_TILE);
     }
 
     #[test]

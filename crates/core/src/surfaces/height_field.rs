@@ -11,13 +11,14 @@ mod fractal;
 mod pattern;
 
 use crate::maths::rng::derive_seed;
-use crate::surfaces::height_field::fractal::Fractal;
+use crate::surfaces::height_field::fractal::{Fractal, Line};
 use crate::surfaces::material::Material;
+use crate::units::Radians;
 
 /// Point spacing of a [`profile`].
 pub const PROFILE_STEP_M: f64 = 10e-6;
 
-/// Slope of the line of a [`profile`] against the x axis.
+/// Slope of the line of a [`profile`] against the direction of the stroke.
 ///
 /// Each lap across the tile runs next to the one before. The slope is a tenth of the inverse golden ratio, so no lap
 /// returns onto an earlier one.
@@ -102,19 +103,31 @@ pub fn height_m(field: &HeightField, x_m: f64, y_m: f64) -> f64 {
 
 /// Returns `n_points` heights along a line across the periodic tile, spaced by [`PROFILE_STEP_M`].
 ///
-/// The line starts at the origin with slope [`PROFILE_SLOPE`]. Fractal detail too fine for the tile is added, so that
-/// the spectrum extends to a quarter of the sampling rate. `seed` affects only that detail.
-pub fn profile(field: &HeightField, n_points: usize, seed: u64) -> Vec<f64> {
+/// The line starts at the origin. `angle` is that of the stroke, from the x axis of the tile toward its y axis: 0 is
+/// across the lay, π/2 along it. The line leaves this angle by [`PROFILE_SLOPE`], less where the stroke runs along the
+/// lay: its drift along x is divided by the stretch of the material, because features are narrow there. Fractal detail too
+/// fine for the tile is added, so that the spectrum extends to a quarter of the sampling rate. `seed` affects only that
+/// detail.
+pub fn profile(field: &HeightField, n_points: usize, angle: Radians, seed: u64) -> Vec<f64> {
+    let (sin, cos) = angle.0.sin_cos();
     let (step_x, step_y) = {
-        let along = PROFILE_STEP_M / PROFILE_SLOPE.hypot(1.0);
-        (along, along * PROFILE_SLOPE)
+        let (x, y) = (cos - PROFILE_SLOPE * sin / field.fractal.stretch(), sin + PROFILE_SLOPE * cos);
+        let along = PROFILE_STEP_M / y.hypot(x);
+        (along * x, along * y)
     };
-    let detail = fractal::line_detail(&field.fractal, n_points, PROFILE_STEP_M, seed);
+    let detail = fractal::line_detail(&field.fractal, Line { cos, sin }, n_points, PROFILE_STEP_M, seed);
     detail
         .iter()
         .enumerate()
         .map(|(i, detail)| detail + height_m(field, i as f64 * step_x, i as f64 * step_y))
         .collect()
+}
+
+/// Returns the ratio of feature length along a stroke to that along x, for a field with this stretch: 1 at the angle 0,
+/// the stretch at π/2.
+pub fn elongation(stretch: f64, angle: Radians) -> f64 {
+    let (sin, cos) = angle.0.sin_cos();
+    Line { cos, sin }.elongation(stretch)
 }
 
 /// The four cells around a position (in cells), and their interpolation weights.
@@ -133,91 +146,4 @@ fn cubic_taps(position: f64, n_cells: usize) -> ([usize; 4], [f64; 4]) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{Fractal, HeightField, PROFILE_SLOPE, PROFILE_STEP_M, Tile, height_m, profile, synthesize};
-    use crate::surfaces::material::tests::plain;
-    use crate::surfaces::material::{Bumps, Pattern, PatternKind};
-    use std::f64::consts::{FRAC_PI_2, TAU};
-
-    const SMALL: Tile = Tile { n_cells: 128, spacing_m: 40e-6 };
-
-    fn sine_field() -> HeightField {
-        let n = SMALL.n_cells;
-        let heights_m = (0..n * n)
-            .map(|i| {
-                let (row, column) = (i / n, i % n);
-                (TAU * 3.0 * column as f64 / n as f64).sin() * (TAU * 2.0 * row as f64 / n as f64).cos()
-            })
-            .collect();
-        HeightField { tile: SMALL, heights_m, fractal: Fractal::new(&plain(), SMALL) }
-    }
-
-    #[test]
-    fn interpolation_follows_a_sine_across_the_seam() {
-        let field = sine_field();
-        let side = SMALL.side_m();
-        for i in 0..500 {
-            let (x, y) = (side * (0.0071 * f64::from(i) - 1.5), side * 0.0153 * f64::from(i));
-            let expected = (TAU * 3.0 * x / side).sin() * (TAU * 2.0 * y / side).cos();
-            // Catmull-Rom errs by at most about (2π/43)³/10 at 43 cells per period, plus half of that along y.
-            assert!((height_m(&field, x, y) - expected).abs() < 4e-4, "at {x}, {y}");
-        }
-    }
-
-    #[test]
-    fn same_seed_same_tile_and_other_seed_or_material_another() {
-        let mut material = plain();
-        let a = synthesize(&material, SMALL, 1);
-        assert_eq!(a.heights_m(), synthesize(&material, SMALL, 1).heights_m());
-        assert_ne!(a.heights_m(), synthesize(&material, SMALL, 2).heights_m());
-        material.id = "other".to_owned();
-        assert_ne!(a.heights_m(), synthesize(&material, SMALL, 1).heights_m());
-    }
-
-    #[test]
-    fn every_pattern_and_scatter_gives_a_finite_tile_of_its_scale() {
-        let kinds = [
-            PatternKind::Ridges,
-            PatternKind::PlainWeave,
-            PatternKind::Twill,
-            PatternKind::Domes,
-            PatternKind::Loops,
-            PatternKind::Pebbles,
-            PatternKind::Cells,
-        ];
-        for kind in kinds {
-            let mut material = plain();
-            material.height_rms_m = 0.0;
-            material.pattern = Some(Pattern { kind, period_m: 0.8e-3, amplitude_m: 1e-5, jitter: 0.2 });
-            let field = synthesize(&material, SMALL, 4);
-            let heights = field.heights_m();
-            let mean = heights.iter().sum::<f64>() / heights.len() as f64;
-            let rms = (heights.iter().map(|h| h * h).sum::<f64>() / heights.len() as f64).sqrt();
-            assert!(mean.abs() < 1e-12, "{kind:?} mean {mean}");
-            assert!((0.2e-5..1.2e-5).contains(&rms), "{kind:?} rms {rms}");
-        }
-    }
-
-    #[test]
-    fn a_profile_rides_on_the_tile() {
-        let mut material = plain();
-        material.bumps.push(Bumps {
-            height_m: 2e-5,
-            radius_m: 3e-4,
-            elongation: 1.0,
-            spread_rad: FRAC_PI_2,
-            density_per_m2: 1e6,
-        });
-        let field = synthesize(&material, SMALL, 8);
-        let line = profile(&field, 4096, 1);
-        let other_detail = profile(&field, 4096, 2);
-        let along = PROFILE_STEP_M / PROFILE_SLOPE.hypot(1.0);
-        let rms = |values: Vec<f64>| (values.iter().map(|v| v * v).sum::<f64>() / 4096.0).sqrt();
-        let off_tile = rms((0..4096)
-            .map(|i| line[i] - height_m(&field, i as f64 * along, i as f64 * along * PROFILE_SLOPE))
-            .collect());
-        // Of a fractal with 1 µm RMS and 1 mm roll-off, the detail too fine for the tile is a small part.
-        assert!(off_tile > 0.0 && off_tile < 0.25e-6, "detail rms {off_tile} m");
-        assert_ne!(line, other_detail);
-    }
-}
+mod tests;

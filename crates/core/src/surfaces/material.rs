@@ -5,6 +5,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
+use crate::texture::stick_slip::{STATIC_RATIOS, STRIBECK_MPS, StickSlip};
+
 /// Physical and optical properties of a surface.
 ///
 /// The grain of a stretched surface runs along y; strokes run along x, across the grain.
@@ -34,6 +36,8 @@ pub struct Material {
     pub friction_coefficient: f64,
     /// RMS variation of the friction coefficient along the path, relative to its mean, 0 or more.
     pub friction_heterogeneity: f64,
+    /// Friction over speed, for surfaces on which a dry tip sticks and slips.
+    pub stick_slip: Option<StickSlip>,
     /// Averaging radius of relief and friction, as a fraction (above 0 to 1) of the Hertz patch radius.
     ///
     /// It is 1 for a continuous solid, and less where fibers, struts or slip waves make and break contact one by one.
@@ -57,6 +61,32 @@ pub struct Material {
     pub mottle: f64,
     /// Size of the color flecks, above 0.
     pub mottle_scale_m: f64,
+}
+
+/// Smallest order parameter at which bumps count as aligned.
+const LEAST_ORDER: f64 = 0.1;
+
+impl Material {
+    /// Whether a stroke along the lay (y) differs from one across it (x).
+    ///
+    /// It does if one of the three parts of the surface has a direction: a fractal part that is stretched, a pattern in
+    /// rows or threads, or elongated bumps that are aligned. Bumps are aligned if the order parameter of their long axes,
+    /// the mean of cos 2φ over the angle φ from y, is at least a tenth. Pebbles and cells lie at random, so they have no
+    /// direction. A plain weave has two: its warp and its weft.
+    pub fn is_directional(&self) -> bool {
+        let has_rows = |pattern: &Pattern| match pattern.kind {
+            PatternKind::Ridges
+            | PatternKind::PlainWeave
+            | PatternKind::Twill
+            | PatternKind::Domes
+            | PatternKind::Loops => pattern.amplitude_m > 0.0,
+            PatternKind::Pebbles | PatternKind::Cells => false,
+        };
+        let is_stretched = self.stretch > 1.0 && self.height_rms_m > 0.0;
+        is_stretched
+            || self.pattern.as_ref().is_some_and(has_rows)
+            || self.bumps.iter().any(Bumps::is_aligned)
+    }
 }
 
 /// A periodic relief with heights of ±`amplitude_m` about its mean plane.
@@ -91,6 +121,17 @@ pub enum PatternKind {
     Cells,
 }
 
+impl PatternKind {
+    /// Number of periods after which the pattern repeats, along x and along y.
+    pub(crate) fn n_periods(self) -> u32 {
+        match self {
+            Self::Twill => 3,
+            Self::PlainWeave | Self::Domes | Self::Loops => 2,
+            Self::Ridges | Self::Pebbles | Self::Cells => 1,
+        }
+    }
+}
+
 /// A random scatter of Gaussian bumps; elongated bumps model fibers, negative heights model pits.
 ///
 /// Heights and radii are log-normal about these medians. Where bumps of one scatter overlap, the larger counts.
@@ -106,6 +147,17 @@ pub struct Bumps {
     pub spread_rad: f64,
     /// Mean number per square meter, 0 or more.
     pub density_per_m2: f64,
+}
+
+impl Bumps {
+    /// Whether the bumps are long and their axes share a direction.
+    fn is_aligned(&self) -> bool {
+        // Mean of cos 2φ over a uniform distribution of φ up to the spread.
+        let twice_rad = 2.0 * self.spread_rad;
+        let order = if twice_rad > 0.0 { twice_rad.sin() / twice_rad } else { 1.0 };
+        let is_there = self.density_per_m2 > 0.0 && self.height_m != 0.0;
+        is_there && self.elongation > 1.0 && order >= LEAST_ORDER
+    }
 }
 
 /// Reasons why material parameters do not define a surface.
@@ -190,6 +242,11 @@ pub fn validate(material: &Material) -> Result<(), MaterialError> {
         ("mottle_scale_m", material.mottle_scale_m, 1e-5, 1.0),
     ];
     numbers.into_iter().try_for_each(check)?;
+    if let Some(StickSlip { static_ratio, stribeck_speed }) = material.stick_slip {
+        let (ratios, speeds) = (STATIC_RATIOS, STRIBECK_MPS);
+        check(("stick_slip.static_ratio", static_ratio, *ratios.start(), *ratios.end()))?;
+        check(("stick_slip.stribeck_speed_mps", stribeck_speed.0, *speeds.start(), *speeds.end()))?;
+    }
     if let Some(pattern) = &material.pattern {
         check(("pattern.period_m", pattern.period_m, SHORTEST_PERIOD_M, 1.0))?;
         check(("pattern.amplitude_m", pattern.amplitude_m, 0.0, 1e-2))?;
@@ -225,6 +282,7 @@ pub(crate) mod tests {
             bumps: Vec::new(),
             friction_coefficient: 0.3,
             friction_heterogeneity: 0.1,
+            stick_slip: None,
             patch_share: 1.0,
             contact_damping_ratio: 0.2,
             load_exponent: 0.1,
@@ -258,6 +316,12 @@ pub(crate) mod tests {
         check(|m| m.hurst = f64::NAN, Some("hurst"));
         check(|m| m.gloss = 1.5, Some("gloss"));
         check(|m| m.youngs_modulus_pa = 0.0, Some("youngs_modulus_pa"));
+        let stick_slip = |static_ratio, mps| {
+            Some(StickSlip { static_ratio, stribeck_speed: crate::units::MetersPerSecond(mps) })
+        };
+        check(|m| m.stick_slip = stick_slip(1.3, 0.02), None);
+        check(|m| m.stick_slip = stick_slip(0.9, 0.02), Some("stick_slip.static_ratio"));
+        check(|m| m.stick_slip = stick_slip(1.3, f64::NAN), Some("stick_slip.stribeck_speed_mps"));
         let pattern = Pattern { kind: PatternKind::Twill, period_m: 0.0, amplitude_m: 1e-6, jitter: 0.1 };
         check(|m| m.pattern = Some(pattern), Some("pattern.period_m"));
         let bumps =
@@ -286,5 +350,33 @@ pub(crate) mod tests {
         check(|m| m.bumps.push(bumps(1e10, 1e-6, 1.0)), None);
         check(|m| m.bumps.push(bumps(1e3, 1e-2, 1.0)), None);
         check(|m| m.bumps.push(bumps(40e6, 0.05e-3, 1.0)), None);
+    }
+
+    #[test]
+    fn a_direction_is_that_of_the_fractal_the_pattern_or_the_bumps() {
+        let check = |change: &dyn Fn(&mut Material), expected: bool| {
+            let mut material = plain();
+            change(&mut material);
+            assert_eq!(material.is_directional(), expected, "{material:?}");
+        };
+        check(&|_| (), false);
+        check(&|m| m.stretch = 2.0, true);
+        let pattern = |kind, amplitude_m| Some(Pattern { kind, period_m: 1e-3, amplitude_m, jitter: 0.1 });
+        for kind in [PatternKind::Ridges, PatternKind::Twill, PatternKind::PlainWeave, PatternKind::Loops] {
+            check(&|m| m.pattern = pattern(kind, 1e-6), true);
+            check(&|m| m.pattern = pattern(kind, 0.0), false);
+        }
+        check(&|m| m.pattern = pattern(PatternKind::Pebbles, 1e-6), false);
+        let bumps = |elongation, spread_rad| Bumps {
+            height_m: 1e-6,
+            radius_m: 1e-4,
+            elongation,
+            spread_rad,
+            density_per_m2: 1e6,
+        };
+        // Fibers along y, fibers in all directions, and round grains.
+        check(&|m| m.bumps.push(bumps(12.0, 0.2)), true);
+        check(&|m| m.bumps.push(bumps(12.0, 1.57)), false);
+        check(&|m| m.bumps.push(bumps(1.0, 0.0)), false);
     }
 }

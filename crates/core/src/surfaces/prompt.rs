@@ -88,6 +88,8 @@ pub struct Looks {
     pub mottle: Option<f64>,
     /// Regular pattern and its period in m.
     pub pattern: Option<(PatternKind, f64)>,
+    /// Whether the prompt states the period as a length; [`Looks::scale`] then does not apply to it.
+    pub is_period_stated: bool,
     /// Factor on pattern periods, the roll-off wavelength and bump radii.
     pub scale: f64,
 }
@@ -265,6 +267,7 @@ impl<'a> Reading<'a> {
                 self.say(hints, pending);
                 if !pending.is_denied {
                     self.looks.pattern = Some((*kind, self.length_m.unwrap_or(*period_m)));
+                    self.looks.is_period_stated = self.length_m.is_some();
                 }
             }
         }
@@ -276,6 +279,7 @@ impl<'a> Reading<'a> {
         self.length_m = Some(meters);
         if let Some((_, period_m)) = &mut self.looks.pattern {
             *period_m = meters;
+            self.looks.is_period_stated = true;
         }
     }
 

@@ -30,6 +30,12 @@ const PERIODS_M: (f64, f64) = (2e-4, 2e-2);
 /// Pattern amplitude for a surface without a pattern: in m at the flattest, and decades more at the bumpiest.
 const FLAT_M: f64 = 2e-6;
 const BUMPY_DECADES: f64 = 1.4;
+/// Irregularity of a pattern that the prompt asks for, if the surface has no pattern of this kind, and the largest one. A
+/// phase that wanders by more than a tenth of a period would blur the period that a hand and an eye find.
+const USUAL_JITTER: f64 = 0.08;
+const MOST_JITTER: f64 = 0.1;
+/// The largest irregularity of a pattern with a stated period: a person who states a number means a regular pattern.
+const MOST_STATED_JITTER: f64 = 0.02;
 /// Color of a surface whose color is unknown.
 const GRAY: [u8; 3] = [150, 148, 144];
 
@@ -75,8 +81,11 @@ pub fn imagine(
         (Some((kind, period_m)), _) => {
             let flat = FLAT_M * 10.0_f64.powf(BUMPY_DECADES * bumpy.mean / 100.0);
             let amplitude_m = before.map_or(flat, |before| (before.amplitude_m * higher).max(flat));
-            let jitter = before.map_or(0.08, |before| before.jitter);
-            Some(pattern(Pattern { kind, period_m, amplitude_m, jitter }, looks.scale))
+            let same = before.filter(|before| before.kind == kind);
+            let (most, scale) =
+                if looks.is_period_stated { (MOST_STATED_JITTER, 1.0) } else { (MOST_JITTER, looks.scale) };
+            let jitter = same.map_or(USUAL_JITTER, |before| before.jitter).min(most);
+            Some(pattern(Pattern { kind, period_m, amplitude_m, jitter }, scale))
         }
         (None, Some(before)) => {
             Some(pattern(Pattern { amplitude_m: before.amplitude_m * higher, ..before }, looks.scale))
@@ -237,6 +246,21 @@ mod tests {
         assert!(made.valley_srgb[0] < 60);
         let pattern = made.pattern.unwrap();
         assert_eq!((pattern.kind, pattern.period_m), (PatternKind::Ridges, 1.5e-3));
+    }
+
+    #[test]
+    fn a_period_that_is_stated_is_kept() {
+        let wanted = Looks {
+            like: Some("carpet".to_owned()),
+            pattern: Some((PatternKind::Ridges, 3e-3)),
+            is_period_stated: true,
+            scale: 0.5,
+            ..Looks::default()
+        };
+        let made = imagine("x", &understood(30.0, 90.0, wanted), &anchors(), &SPAN).unwrap();
+        let pattern = made.pattern.unwrap();
+        // Neither its jitter, which is that of loops, nor its scale is used.
+        assert_eq!((pattern.period_m, pattern.jitter), (3e-3, super::MOST_STATED_JITTER));
     }
 
     proptest! {

@@ -51,6 +51,7 @@ pub fn draw(seed: u64, number: u64) -> (Material, &'static Class) {
         bumps,
         friction_coefficient: draw.between(class.friction),
         friction_heterogeneity: draw.between(class.heterogeneity),
+        stick_slip: None,
         patch_share: draw.between(class.patch_share),
         contact_damping_ratio: class.damping_ratio,
         load_exponent: draw.between(class.load_exponent),

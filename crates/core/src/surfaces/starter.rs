@@ -1,31 +1,22 @@
 //! Textures of the starter library from physical materials: simulated strokes, fitted models, labels and a picture.
 //!
-//! Every material is stroked at [`STARTER_SPEEDS_MM_PER_S`] and [`STARTER_FORCES_N`]. Each stroke gives one AR model
-//! and one level. The tap transient is that of a landing at [`REFERENCE_LANDING`]. Positions in the space are physical
-//! labels, scaled to the axes by [`places`]. They are simulated, not human ratings, and any display of them must say so.
+//! The grain is that of simulated strokes ([`stroked_grain`]): every stroke gives one AR model and one level. Directional
+//! materials are stroked across and along their lay. The tap transient is that of a landing at [`REFERENCE_LANDING`].
+//! Positions in the space are physical labels, scaled to the axes by [`places`]; roughness is that across the lay. They are
+//! simulated, not human ratings, and any display of them must say so.
 
-use crate::dsp::ar::{ArError, order_by_bic, yule_walker};
-use crate::dsp::lsf::lsf_from_ar;
-use crate::dsp::spectrum::rms;
 use crate::maths::rng::derive_seed;
 use crate::space::SpacePoint;
 use crate::surfaces::contact_model::landing::{REFERENCE_LANDING, landing};
 use crate::surfaces::contact_model::{
-    PEN, STARTER_PATH_M, STROKE_RATE, StrokeError, Surface, drag, hardness, prepare, press, roughness,
+    ACROSS, PEN, STARTER_PATH_M, StrokeError, Surface, hardness, prepare, roughness,
 };
 use crate::surfaces::height_field::{STARTER_TILE, synthesize};
 use crate::surfaces::material::{Material, MaterialError, validate};
 use crate::surfaces::shading::{Framing, Picture, shade};
-use crate::texture::patterns::{STARTER_FORCES_N, STARTER_SPEEDS_MM_PER_S};
-use crate::texture::{GrainNode, TextureModel, TextureModelError};
-use crate::units::{MetersPerSecond, Newtons};
+use crate::surfaces::stroked_grain::{GrainError, prepare_strokes, stroked_grain};
+use crate::texture::TextureModel;
 
-/// Duration of each stroke, in seconds.
-pub const STROKE_SECS: f64 = 1.0;
-/// Lowest AR order: fewer poles cannot follow the shape of a real spectrum.
-pub const MIN_ORDER: usize = 10;
-/// Highest AR order: more poles would fit the noise of a one-second stroke.
-pub const MAX_ORDER: usize = 20;
 /// Size of the picture of a material.
 pub const FRAMING: Framing = Framing { n_pixels: 256, millimeters: 20.0 };
 
@@ -59,34 +50,9 @@ pub enum StarterError {
     /// A stroke could not be simulated.
     #[error(transparent)]
     Stroke(#[from] StrokeError),
-    /// An AR model cannot be fitted to a stroke.
-    #[error("no AR model fits the stroke at {speed_mm_per_s} mm/s and {force_n} N: {source}")]
-    Fit {
-        /// Speed of the stroke, in mm/s.
-        speed_mm_per_s: f64,
-        /// Force of the stroke, in N.
-        force_n: f64,
-        /// Cause.
-        source: ArError,
-    },
-    /// An AR model is at the limit of stability.
-    #[error("the AR model of the stroke at {speed_mm_per_s} mm/s and {force_n} N is not stable")]
-    Unstable {
-        /// Speed of the stroke, in mm/s.
-        speed_mm_per_s: f64,
-        /// Force of the stroke, in N.
-        force_n: f64,
-    },
-    /// The fitted values do not form a texture model.
+    /// The strokes give no grain.
     #[error(transparent)]
-    Model(#[from] TextureModelError),
-}
-
-/// Acceleration of one simulated stroke.
-struct Stroked {
-    speed_mm_per_s: f64,
-    force_n: f64,
-    accel_mps2: Vec<f64>,
+    Grain(#[from] GrainError),
 }
 
 /// Returns the labels and picture of a material as [`make`] gives them, without simulating all of its strokes.
@@ -98,7 +64,7 @@ struct Stroked {
 pub fn pictured(material: &Material, seed: u64) -> Result<(Labels, Picture), StarterError> {
     validate(material)?;
     let field = synthesize(material, STARTER_TILE, seed);
-    let surface = prepare(material, &field, &PEN, STARTER_PATH_M, seed);
+    let surface = prepare(material, &field, &PEN, STARTER_PATH_M, ACROSS, seed);
     Ok((labels(material, &surface, seed)?, shade(&field, material, &FRAMING)))
 }
 
@@ -117,58 +83,12 @@ fn labels(material: &Material, surface: &Surface, seed: u64) -> Result<Labels, S
 pub fn make(material: &Material, seed: u64) -> Result<StarterTexture, StarterError> {
     validate(material)?;
     let field = synthesize(material, STARTER_TILE, seed);
-    let surface = prepare(material, &field, &PEN, STARTER_PATH_M, seed);
-    let stroke_seed = |purpose: &str| derive_seed(derive_seed(seed, &material.id), purpose);
-    let mut strokes = Vec::with_capacity(STARTER_SPEEDS_MM_PER_S.len() * STARTER_FORCES_N.len());
-    for force_n in STARTER_FORCES_N {
-        let pressed = press(&surface, Newtons(force_n))?;
-        for speed_mm_per_s in STARTER_SPEEDS_MM_PER_S {
-            let seed = stroke_seed(&format!("stroke at {speed_mm_per_s} mm/s and {force_n} N"));
-            let accel_mps2 =
-                drag(&pressed, MetersPerSecond::from_mm_per_s(speed_mm_per_s), STROKE_SECS, seed)?;
-            strokes.push(Stroked { speed_mm_per_s, force_n, accel_mps2 });
-        }
-    }
-    let labels = labels(material, &surface, seed)?;
-    let model = fit(&strokes, material.friction_coefficient)?.with_tap(Some(landing(
-        material,
-        &PEN,
-        REFERENCE_LANDING,
-    )));
+    let surfaces = prepare_strokes(material, &field, seed);
+    let grain = stroked_grain(material, &surfaces, seed, &|| true)?;
+    let model =
+        grain.with_tap(Some(landing(material, &PEN, REFERENCE_LANDING))).with_stick_slip(material.stick_slip);
+    let labels = labels(material, &surfaces.across, seed)?;
     Ok(StarterTexture { model, labels, picture: shade(&field, material, &FRAMING) })
-}
-
-/// Fits AR models of one common order: the median of the BIC orders of all strokes, within [`MIN_ORDER`] to
-/// [`MAX_ORDER`].
-fn fit(strokes: &[Stroked], friction: f64) -> Result<TextureModel, StarterError> {
-    let predictor = |stroke: &Stroked, order: usize| {
-        yule_walker(&stroke.accel_mps2, order).map_err(|source| StarterError::Fit {
-            speed_mm_per_s: stroke.speed_mm_per_s,
-            force_n: stroke.force_n,
-            source,
-        })
-    };
-    let mut orders = Vec::with_capacity(strokes.len());
-    for stroke in strokes {
-        let highest = predictor(stroke, MAX_ORDER)?;
-        orders.push(order_by_bic(&highest, stroke.accel_mps2.len(), 1..=MAX_ORDER));
-    }
-    orders.sort_unstable();
-    let order = orders.get(orders.len() / 2).map_or(MAX_ORDER, |median| (*median).max(MIN_ORDER));
-    let node = |stroke: &Stroked| {
-        let lsf = lsf_from_ar(&predictor(stroke, order)?.ar).ok_or(StarterError::Unstable {
-            speed_mm_per_s: stroke.speed_mm_per_s,
-            force_n: stroke.force_n,
-        })?;
-        Ok(GrainNode {
-            speed: MetersPerSecond::from_mm_per_s(stroke.speed_mm_per_s),
-            force: Newtons(stroke.force_n),
-            lsf,
-            level_mps2: rms(&stroke.accel_mps2),
-        })
-    };
-    let nodes = strokes.iter().map(node).collect::<Result<Vec<_>, StarterError>>()?;
-    Ok(TextureModel::new(STROKE_RATE, nodes, Some(friction))?)
 }
 
 /// Range of the labels of a set of textures: the ends of the axes.
@@ -226,53 +146,13 @@ pub fn places(labels: &[Labels]) -> Vec<SpacePoint> {
 
 #[cfg(test)]
 mod tests {
-    use super::{
-        Labels, MAX_ORDER, MIN_ORDER, STARTER_FORCES_N, STARTER_SPEEDS_MM_PER_S, StarterError, Stroked, fit,
-        make, pictured, places,
-    };
-    use crate::dsp::ar::test_signals::from_resonances;
-    use crate::dsp::spectrum::rms;
-    use crate::maths::rng::lcg_noise;
+    use super::{Labels, StarterError, make, pictured, places};
+    use crate::surfaces::contact_model::PEN;
+    use crate::surfaces::material::Material;
     use crate::surfaces::material::tests::plain;
-    use crate::units::Hertz;
-
-    fn stroked(resonances: &[(Hertz, f64)], level: f64, seed: u64) -> Stroked {
-        let ar = from_resonances(Hertz(1000.0), resonances);
-        let mut x = lcg_noise(2000, seed);
-        for n in 0..x.len() {
-            x[n] -= (1..=ar.len().min(n)).map(|k| ar[k - 1] * x[n - k]).sum::<f64>();
-        }
-        let accel_mps2 = x.split_off(1000).into_iter().map(|v| level * v).collect();
-        // Two nodes at the same speed and force are an error.
-        Stroked { speed_mm_per_s: 100.0 + seed as f64, force_n: 1.0, accel_mps2 }
-    }
-
-    #[test]
-    fn order_is_common_and_within_its_range() {
-        let two = [(Hertz(100.0), 0.95)];
-        let simple: Vec<Stroked> = (0..5).map(|i| stroked(&two, 1.0, i)).collect();
-        assert_eq!(fit(&simple, 0.3).unwrap().order(), MIN_ORDER);
-        let fourteen: Vec<(Hertz, f64)> = (1..8).map(|i| (Hertz(60.0 * f64::from(i)), 0.97)).collect();
-        let rich: Vec<Stroked> = (0..5).map(|i| stroked(&fourteen, 1.0, i)).collect();
-        let order = fit(&rich, 0.3).unwrap().order();
-        assert!((14..=MAX_ORDER).contains(&order), "{order}");
-    }
-
-    #[test]
-    fn level_is_that_of_the_signal() {
-        let stroke = stroked(&[(Hertz(100.0), 0.9)], 0.25, 3);
-        let rms = rms(&stroke.accel_mps2);
-        let model = fit(&[stroke], 0.3).unwrap();
-        assert!((model.nodes()[0].level_mps2 - rms).abs() < 1e-12);
-        assert_eq!(model.friction(), Some(0.3));
-    }
-
-    #[test]
-    fn a_stroke_without_vibration_is_named() {
-        let still = Stroked { speed_mm_per_s: 70.0, force_n: 0.4, accel_mps2: vec![0.0; 1000] };
-        let message = fit(&[still], 0.3).unwrap_err().to_string();
-        assert!(message.contains("70 mm/s and 0.4 N"), "{message}");
-    }
+    use crate::texture::patterns::{STARTER_FORCES_N, STARTER_SPEEDS_MM_PER_S};
+    use crate::texture::stick_slip::StickSlip;
+    use crate::units::MetersPerSecond;
 
     #[test]
     fn the_roughest_and_the_hardest_are_at_zero() {
@@ -296,6 +176,26 @@ mod tests {
         assert_eq!(make(&plain(), 4).unwrap().model, texture.model);
         assert_eq!(pictured(&plain(), 4).unwrap(), (texture.labels, texture.picture.clone()));
         assert_ne!(make(&plain(), 5).unwrap().model, texture.model);
+        assert_eq!(texture.model.along(), None);
+    }
+
+    #[test]
+    fn a_directional_material_has_grain_along_its_lay() {
+        let sticky = StickSlip { static_ratio: 1.3, stribeck_speed: MetersPerSecond(0.02) };
+        let brushed = Material { stretch: 20.0, stick_slip: Some(sticky), ..plain() };
+        let model = make(&brushed, 4).unwrap().model;
+        assert_eq!(model.stick_slip(), Some(sticky));
+        assert_eq!(model.friction(), Some(brushed.friction_coefficient));
+        let along = model.along().unwrap();
+        let power = |levels: Vec<f64>| levels.iter().map(|level| level * level).sum::<f64>();
+        let across = power(model.nodes().iter().map(|node| node.level_mps2).collect());
+        let along = power(along.iter().map(|node| node.level_mps2).collect());
+        assert!(along < 0.25 * across, "{along} {across}");
+    }
+
+    #[test]
+    fn the_pen_of_strokes_is_the_pen_that_sticks_and_slips() {
+        assert_eq!(PEN.mass_kg as f32, shagreen_synth::stick_slip::MASS_KG);
     }
 
     #[test]

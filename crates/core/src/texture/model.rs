@@ -2,14 +2,16 @@
 
 mod check;
 mod error;
+mod layers;
 
 use std::sync::Arc;
 
 use crate::texture::limits::MAX_RADIAL_NODES;
+use crate::texture::model::layers::TextureLayers;
 use crate::texture::relief::Relief;
-use crate::texture::tap::Tap;
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
+pub(in crate::texture) use crate::texture::model::check::decays;
 pub use crate::texture::model::error::TextureModelError;
 
 /// Grain node: the stochastic vibration at one speed and force, as an autoregressive (AR) process.
@@ -75,15 +77,16 @@ pub enum Grain {
     },
 }
 
-/// Texture model: grain over (speed, force), friction, tap transient and relief.
+/// Texture model: grain over (speed, force), friction, tap transient, relief and direction.
+///
+/// A texture has its own axes. Its lay, the direction of its grain or brushing, runs along y, as in its picture. The nodes
+/// of [`Grain`] are for strokes across the lay. A texture without [`TextureModel::along`] is isotropic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureModel {
     rate: Hertz,
     grain: Grain,
     friction: Option<f64>,
-    tap: Option<Tap>,
-    /// Shared with planes and blends, because it is large.
-    relief: Option<Arc<Relief>>,
+    layers: TextureLayers,
 }
 
 impl TextureModel {
@@ -98,15 +101,14 @@ impl TextureModel {
         Ok(made)
     }
 
-    /// Checks that the filters of measured nodes do not grow in the renderer, as [`TextureModel::new`] does.
+    /// Checks that the filters of measured nodes, also along the lay, do not grow in the renderer, as
+    /// [`TextureModel::new`] and [`TextureModel::with_along`] do.
     ///
     /// # Errors
-    /// [`TextureModelError::Unstable`].
+    /// [`TextureModelError::Unstable`], for the grain along the lay within [`TextureModelError::InAlong`].
     pub fn check_stable(&self) -> Result<(), TextureModelError> {
-        match &self.grain {
-            Grain::Measured { nodes, .. } => check::stable(nodes),
-            Grain::Published { .. } => Ok(()),
-        }
+        check::stable(self.nodes())?;
+        check::stable_along(self.along().unwrap_or_default())
     }
 
     /// As [`TextureModel::new`], for a blend of textures, which is made at each movement of a point. Its filters are not
@@ -123,7 +125,7 @@ impl TextureModel {
         check::frame(rate, nodes.len(), friction)?;
         check::measured(&nodes)?;
         let grain = Grain::Measured { nodes, interpolation: Interpolation::Barycentric };
-        Ok(Self { rate, grain, friction, tap: None, relief: None })
+        Ok(Self { rate, grain, friction, layers: TextureLayers::default() })
     }
 
     /// Creates a texture from published nodes, which include the boundary. Every corner of the rectangle from zero to
@@ -138,7 +140,7 @@ impl TextureModel {
     ) -> Result<Self, TextureModelError> {
         check::frame(rate, nodes.len(), friction)?;
         check::published(&nodes)?;
-        Ok(Self { rate, grain: Grain::Published { nodes }, friction, tap: None, relief: None })
+        Ok(Self { rate, grain: Grain::Published { nodes }, friction, layers: TextureLayers::default() })
     }
 
     /// Returns the texture with another interpolation of its measured nodes.
@@ -157,18 +159,14 @@ impl TextureModel {
         Ok(self)
     }
 
-    /// Returns the texture with this tap transient.
-    #[must_use]
-    pub fn with_tap(mut self, tap: Option<Tap>) -> Self {
-        self.tap = tap;
-        self
-    }
-
-    /// Returns the texture with this relief.
-    #[must_use]
-    pub fn with_relief(mut self, relief: Option<Arc<Relief>>) -> Self {
-        self.relief = relief;
-        self
+    /// Returns the texture with another friction coefficient.
+    ///
+    /// # Errors
+    /// [`TextureModelError::Friction`] if it is out of range.
+    pub fn with_friction(mut self, friction: Option<f64>) -> Result<Self, TextureModelError> {
+        check::frame(self.rate, self.n_nodes(), friction)?;
+        self.friction = friction;
+        Ok(self)
     }
 
     /// Creates a texture with a relief and no grain. `rate` is the model rate; the relief is rendered up to half of it.
@@ -243,16 +241,6 @@ impl TextureModel {
             Grain::Measured { interpolation, .. } => Some(interpolation),
             Grain::Published { .. } => None,
         }
-    }
-
-    /// Tap transient, if known.
-    pub fn tap(&self) -> Option<Tap> {
-        self.tap
-    }
-
-    /// Relief, if the texture has one.
-    pub fn relief(&self) -> Option<&Arc<Relief>> {
-        self.relief.as_ref()
     }
 
     /// Highest speed of a node; above it the texture is constant.

@@ -5,7 +5,10 @@ mod radial;
 mod refined;
 mod values;
 
+use std::f64::consts::FRAC_PI_2;
 use std::sync::Arc;
+
+use shagreen_synth::stick_slip::Friction;
 
 pub use crate::texture::plane::prepared::Prepared;
 
@@ -13,11 +16,13 @@ use crate::dsp::arma;
 use crate::dsp::lsf::ar_from_lsf;
 use crate::maths::triangulation::{Triangulation, Xy};
 use crate::texture::boundary::{BoundaryModel, boundary};
+use crate::texture::height_map::HeightMap;
 use crate::texture::plane::radial::RadialGrain;
 use crate::texture::plane::values::{Strength, Values};
 use crate::texture::relief::Relief;
+use crate::texture::stick_slip::friction;
 use crate::texture::{self, GrainNode, Interpolation, MIN_NODE_DISTANCE, PublishedNode, TextureModel};
-use crate::units::{Contact, Hertz};
+use crate::units::{Contact, Hertz, Radians};
 
 /// Grain of a texture at any contact.
 ///
@@ -29,6 +34,9 @@ use crate::units::{Contact, Hertz};
 ///   decreases linearly to zero at zero speed or force.
 ///
 /// Published nodes already include the boundary, and are interpolated in triangles.
+///
+/// A texture with a lay has one grain across and one along it. Between them, the line spectral frequencies and the
+/// squared level are linear in `sin² θ`, with the angle `θ` from the texture's x axis, across its lay, to the stroke.
 #[derive(Clone, Debug)]
 pub struct Plane {
     rate: Hertz,
@@ -40,8 +48,32 @@ pub struct Plane {
     triangulation: Triangulation,
     /// Radial basis, if used; the triangles then approximate it.
     radial: Option<RadialGrain>,
-    /// Relief, which depends on the tip position instead of speed and force.
+    /// Grain along the lay.
+    along: Option<Box<Plane>>,
+    surface: Surface,
+}
+
+/// What depends on the position of the tip instead of its speed and force, and its friction.
+#[derive(Clone, Debug)]
+struct Surface {
     relief: Option<Arc<Relief>>,
+    height_map: Option<Arc<HeightMap>>,
+    friction: Option<Friction>,
+    /// Angle of the texture's x axis on the pad, counterclockwise, in rad.
+    turn_rad: f64,
+}
+
+impl Surface {
+    fn of(texture: &TextureModel) -> Self {
+        let friction = friction(texture.friction(), texture.stick_slip());
+        Self {
+            relief: texture.relief().cloned(),
+            height_map: texture.height_map().cloned(),
+            // The renderer refuses a coefficient that is not finite in `f32`.
+            friction: friction.map(|of| Friction { kinetic: of.kinetic.min(f32::MAX), ..of }),
+            turn_rad: texture.turn_rad(),
+        }
+    }
 }
 
 /// Grain at one contact: white noise filtered by a moving-average part and an AR part.
@@ -138,13 +170,28 @@ impl Plane {
             vertices,
             triangulation,
             radial,
-            relief: texture.relief().cloned(),
+            along: texture.along_model().map(|along| Box::new(Self::new(&along))),
+            surface: Surface::of(texture),
         }
     }
 
-    /// Grain at `contact`. Above the highest speed or force, it is the grain at that speed or force; at zero speed or
-    /// force, it is silent.
+    /// Grain at `contact`, for a stroke across the lay. Above the highest speed or force, it is the grain at that speed
+    /// or force; at zero speed or force, it is silent.
     pub fn at(&self, contact: Contact) -> Grain {
+        self.values_at(contact).into_grain(self.rate)
+    }
+
+    /// Grain at `contact`, as [`Plane::at`], for a stroke at an angle from the texture's x axis.
+    pub fn at_angle(&self, contact: Contact, angle: Radians) -> Grain {
+        let across = self.values_at(contact);
+        let mixed = match &self.along {
+            Some(along) => across.mixed_with_along(&along.values_at(contact), angle.0.sin().powi(2)),
+            None => across,
+        };
+        mixed.into_grain(self.rate)
+    }
+
+    fn values_at(&self, contact: Contact) -> Values {
         let share = |x: f64, max: f64| if x > 0.0 { (x / max).min(1.0) } else { 0.0 };
         let at = [share(contact.speed.0, self.speed_max_mps), share(contact.force.0, self.force_max_n)];
         let mut values = match &self.radial {
@@ -155,12 +202,22 @@ impl Plane {
         if at.contains(&0.0) {
             values.strength = values.strength.silent();
         }
-        values.into_grain(self.rate)
+        values
+    }
+
+    /// Plane of the grain along the lay; `None` for an isotropic texture.
+    pub fn along(&self) -> Option<&Self> {
+        self.along.as_deref()
+    }
+
+    /// Direction of the lay on the pad, as an angle from its x axis, counterclockwise; `None` for an isotropic texture.
+    pub fn lay(&self) -> Option<Radians> {
+        self.along.is_some().then_some(Radians(FRAC_PI_2 + self.surface.turn_rad))
     }
 
     /// Position-dependent relief, if the texture has one.
     pub fn relief(&self) -> Option<&Arc<Relief>> {
-        self.relief.as_ref()
+        self.surface.relief.as_ref()
     }
 
     /// Model rate.

@@ -1,30 +1,17 @@
 //! Conversion of a texture model to a higher rate, so that textures with different rates can be mixed.
 //!
-//! The spectrum up to the old Nyquist frequency is kept, and the density above it falls steeply. The Fourier transform
-//! of this spectrum is its autocorrelation (Wiener-Khinchin theorem), from which the Levinson-Durbin recursion computes
-//! the predictor.
-
-use std::f64::consts::PI;
+//! The spectrum up to the old Nyquist frequency is kept, and the density above it falls steeply. The Levinson-Durbin
+//! recursion computes the predictor from the autocorrelation of this spectrum.
 
 use crate::dsp::ar::{self, levinson};
 use crate::dsp::arma;
 use crate::dsp::lsf::{ar_from_lsf, lsf_from_ar};
+use crate::texture::refit::{FAINTEST, SpectrumGrid, relative_density};
 use crate::texture::{
     Grain, GrainNode, Interpolation, MAX_ORDER, PublishedNode, TextureModel, TextureModelError,
 };
 use crate::units::Hertz;
 
-/// Number of spectral points between zero and the new Nyquist frequency.
-const N_POINTS: usize = 2048;
-/// Width of the transition above the old Nyquist frequency, relative to that frequency, and density above the
-/// transition. The density is relative to the smaller of the density at the old Nyquist frequency and the mean density.
-///
-/// A steeper or deeper transition makes the predictor spend its order on the transition; a gentler one leaves audible
-/// content above. These two values minimize the error over the starter library from 1 to 2 kHz.
-const FALL: f64 = 0.4;
-const FLOOR: f64 = 1e-4;
-/// Lowest density relative to the mean; deeper notches make the equations ill-conditioned.
-const FAINTEST: f64 = 1e-8;
 /// Fraction of the old Nyquist frequency up to which spectra are compared.
 const COMPARED: f64 = 0.9;
 /// Number of frequencies at which spectra are compared.
@@ -33,7 +20,7 @@ const N_COMPARED: usize = 200;
 /// Model converted to a higher rate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtRate {
-    /// Converted model: the same nodes with the same levels.
+    /// Converted model: the same nodes with the same levels, and the same layers.
     pub model: TextureModel,
     /// Median over the nodes of the root mean square spectral difference in dB, up to 0.9 of the old Nyquist frequency.
     pub error_db_median: f64,
@@ -99,13 +86,13 @@ pub fn at_rate(model: &TextureModel, rate: Hertz) -> Result<AtRate, AtRateError>
         errors_db.push(error_db);
         Ok::<_, AtRateError>(lsf)
     };
+    let along = match model.along() {
+        Some(nodes) => Some(converted_nodes(nodes, &mut convert)?),
+        None => None,
+    };
     let converted = match model.grain() {
         Grain::Measured { nodes, interpolation } => {
-            let nodes = nodes
-                .iter()
-                .enumerate()
-                .map(|(index, node)| Ok(GrainNode { lsf: convert(index, &node.lsf, &[])?, ..node.clone() }));
-            let nodes: Vec<GrainNode> = nodes.collect::<Result<_, AtRateError>>()?;
+            let nodes = converted_nodes(nodes, &mut convert)?;
             let model = TextureModel::new(rate, nodes, model.friction())?;
             if *interpolation == Interpolation::Barycentric {
                 model
@@ -129,42 +116,42 @@ pub fn at_rate(model: &TextureModel, rate: Hertz) -> Result<AtRate, AtRateError>
     errors_db.sort_by(f64::total_cmp);
     let n = errors_db.len();
     Ok(AtRate {
-        model: converted.with_tap(model.tap()).with_relief(model.relief().cloned()),
+        model: converted.with_along(along)?.with_layers_of(model),
         error_db_median: 0.5 * (errors_db[(n - 1) / 2] + errors_db[n / 2]),
         error_db_worst: errors_db[n - 1],
     })
+}
+
+/// Returns the line spectral frequencies at the new rate of a node, from its index, AR part and moving-average part.
+type Convert<'a> = dyn FnMut(usize, &[f64], &[f64]) -> Result<Vec<f64>, AtRateError> + 'a;
+
+/// Measured nodes with the line spectral frequencies that `convert` returns for a node's index, AR part and
+/// moving-average part.
+fn converted_nodes(nodes: &[GrainNode], convert: &mut Convert<'_>) -> Result<Vec<GrainNode>, AtRateError> {
+    let mut converted = Vec::with_capacity(nodes.len());
+    for (index, node) in nodes.iter().enumerate() {
+        converted.push(GrainNode { lsf: convert(index, &node.lsf, &[])?, ..node.clone() });
+    }
+    Ok(converted)
 }
 
 /// Conversion between two rates; shared by all nodes.
 struct Converter {
     own: Hertz,
     rate: Hertz,
-    /// Points of the new spectrum below the old Nyquist frequency.
-    below: Vec<Hertz>,
-    /// Progress of the transition at each point above the old Nyquist frequency, 0 to 1.
-    fall: Vec<f64>,
-    /// `cos(π m / 2N)` for `m` from 0 over a full period of `4N` values, where `N` is [`N_POINTS`].
-    cosines: Vec<f64>,
+    grid: SpectrumGrid,
     compared: Vec<Hertz>,
 }
 
 impl Converter {
     fn new(own: Hertz, rate: Hertz) -> Self {
-        let nyquist = 0.5 * own.0;
-        let point = |i: usize| (i as f64 + 0.5) * 0.5 * rate.0 / N_POINTS as f64;
-        let (below, above): (Vec<f64>, Vec<f64>) = (0..N_POINTS).map(point).partition(|f| *f < nyquist);
-        let fall = |f: f64| {
-            let t = ((f - nyquist) / (FALL * nyquist)).min(1.0);
-            0.5 - 0.5 * (PI * t).cos()
-        };
+        let compared = COMPARED * 0.5 * own.0;
         Self {
             own,
             rate,
-            below: below.into_iter().map(Hertz).collect(),
-            fall: above.into_iter().map(fall).collect(),
-            cosines: (0..4 * N_POINTS).map(|m| (PI * m as f64 / (2 * N_POINTS) as f64).cos()).collect(),
+            grid: SpectrumGrid::new(own, rate),
             compared: (0..N_COMPARED)
-                .map(|i| Hertz(COMPARED * nyquist * (i as f64 + 0.5) / N_COMPARED as f64))
+                .map(|i| Hertz(compared * (i as f64 + 0.5) / N_COMPARED as f64))
                 .collect(),
         }
     }
@@ -172,28 +159,13 @@ impl Converter {
     /// Converts a filter (AR and moving-average part). Returns the line spectral frequencies at the new rate and the
     /// spectral error in dB; `None` if the predictor is unstable.
     fn convert(&self, filter: &[Vec<f64>; 2]) -> Option<(Vec<f64>, f64)> {
-        let power = arma::power_gain(&filter[0], &filter[1]);
-        let density = |f: &[Hertz]| -> Vec<f64> {
-            let response = arma::response(&filter[0], &filter[1], self.own, f);
-            response.into_iter().map(|(re, im)| (re * re + im * im) / power).collect()
-        };
-        let mut spectrum = density(&self.below);
-        let edge = spectrum.last()?.max(FAINTEST);
-        // A straight line in decibels with rounded ends.
-        let floor = FLOOR * edge.min(1.0);
-        spectrum.extend(self.fall.iter().map(|fallen| edge * (floor / edge).powf(*fallen)));
+        let mut spectrum = self.grid.spectrum(filter);
         for density in &mut spectrum {
             *density = density.max(FAINTEST);
         }
-        // r_k = Σ S(f_i) cos(2π f_i k / rate), with angles in steps of π / 2N.
-        let lag = |k: usize| {
-            let angle = |i: usize| (2 * i + 1) * k % (4 * N_POINTS);
-            spectrum.iter().enumerate().map(|(i, s)| s * self.cosines[angle(i)]).sum::<f64>()
-        };
-        let r: Vec<f64> = (0..=MAX_ORDER).map(lag).collect();
-        let predictor = levinson(&r, MAX_ORDER).ar;
+        let predictor = levinson(&self.grid.lags(&spectrum), MAX_ORDER).ar;
         let lsf = lsf_from_ar(&predictor)?;
-        let wanted = density(&self.compared);
+        let wanted = relative_density(filter, self.own, &self.compared);
         // Both filters have unit power; at the new rate this power is spread over a wider band.
         let scale = self.rate.0 / self.own.0 * ar::power_gain(&predictor);
         let got = arma::response(&predictor, &[], self.rate, &self.compared);
@@ -209,9 +181,11 @@ impl Converter {
 mod tests {
     use super::{AtRateError, at_rate, highest_rate};
     use crate::texture::plane::Plane;
+    use crate::texture::stick_slip::StickSlip;
+    use crate::texture::tap::Tap;
     use crate::texture::test_textures::{arma, two_resonances};
-    use crate::texture::{Interpolation, MAX_ORDER, TextureModel};
-    use crate::units::{Contact, Hertz};
+    use crate::texture::{GrainNode, Interpolation, MAX_ORDER, TextureModel};
+    use crate::units::{Contact, Hertz, MetersPerSecond};
 
     /// Checks the root mean square spectral difference up to 450 Hz at all contacts, in dB, and the level.
     fn check(model: &TextureModel, rate_hz: f64, bound_db: f64) {
@@ -262,6 +236,27 @@ mod tests {
             assert!(matches!(at_rate(&model, Hertz(rate_hz)), Err(AtRateError::Lower { .. })));
         }
         assert!(matches!(at_rate(&model, Hertz(8000.0)), Err(AtRateError::Model(_))));
+    }
+
+    /// The grain along the lay is converted like that across it, and everything that has no rate stays.
+    #[test]
+    fn all_layers_stay() {
+        let model = two_resonances(&[0.05, 0.2], &[0.5, 1.0]);
+        let quiet = |n: &GrainNode| GrainNode { level_mps2: 0.25 * n.level_mps2, ..n.clone() };
+        let along: Vec<GrainNode> = model.nodes().iter().map(quiet).collect();
+        let tap = Tap { frequency: Hertz(180.0), decay_per_sec: 90.0, amplitude_mps2: 4.0 };
+        let stick_slip = StickSlip { static_ratio: 1.5, stribeck_speed: MetersPerSecond(0.02) };
+        let model = model
+            .with_along(Some(along))
+            .unwrap()
+            .with_tap(Some(tap))
+            .with_stick_slip(Some(stick_slip))
+            .with_turn_rad(0.5);
+        let fast = at_rate(&model, Hertz(2000.0)).unwrap().model;
+        assert_eq!((fast.tap(), fast.stick_slip(), fast.turn_rad()), (Some(tap), Some(stick_slip), 0.5));
+        check(&model.along_model().unwrap(), 2000.0, 0.3);
+        let alone = at_rate(&model.along_model().unwrap(), Hertz(2000.0)).unwrap().model;
+        assert_eq!(fast.along(), Some(alone.nodes()));
     }
 
     #[test]

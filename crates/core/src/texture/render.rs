@@ -117,10 +117,10 @@ pub trait Hand {
     /// it for one pass over all times, and then starts again.
     fn contact_at(&mut self, time_secs: f64) -> Contact;
 
-    /// Tip position along reliefs at any time, in m. An implementation that returns `None` must always return `None`.
-    /// The position then starts at zero and increases by the distance that the tip travels, because a stroke without
-    /// positions does not reverse.
-    fn place_m_at(&mut self, _time_secs: f64) -> Option<f64> {
+    /// Tip position on the pad at any time, to the right and upwards, in m. An implementation that returns `None` must
+    /// always return `None`. The position then starts at (0, 0) and moves to the right by the distance that the tip
+    /// travels, because a stroke without positions does not turn or reverse.
+    fn place_m_at(&mut self, _time_secs: f64) -> Option<[f64; 2]> {
         None
     }
 }
@@ -141,13 +141,13 @@ struct Shifted<'a> {
     warm_up_secs: f64,
     /// Time in s of the last contact since the warm-up, and its speed in m/s.
     last: (f64, f64),
-    /// Current position, in m.
-    place_m: f64,
+    /// Current position to the right and upwards, in m.
+    place_m: [f64; 2],
 }
 
 impl<'a> Shifted<'a> {
     fn new(hand: &'a mut dyn Hand, warm_up_secs: f64) -> Self {
-        Self { hand, warm_up_secs, last: (0.0, 0.0), place_m: 0.0 }
+        Self { hand, warm_up_secs, last: (0.0, 0.0), place_m: [0.0; 2] }
     }
 }
 
@@ -161,18 +161,18 @@ impl ContactSource for Shifted<'_> {
         self.place_m = match self.hand.place_m_at(secs) {
             Some(place_m) if is_ahead => {
                 let next_m = self.hand.place_m_at(APPROACH_SECS).unwrap_or(place_m);
-                place_m - ahead_secs * (next_m - place_m) / APPROACH_SECS
+                [0, 1].map(|i| place_m[i] - ahead_secs * (next_m[i] - place_m[i]) / APPROACH_SECS)
             }
             Some(place_m) => place_m,
-            None if is_ahead => -speed * ahead_secs,
-            None => self.place_m + 0.5 * (self.last.1 + speed) * (secs - self.last.0),
+            None if is_ahead => [-speed * ahead_secs, 0.0],
+            None => [self.place_m[0] + 0.5 * (self.last.1 + speed) * (secs - self.last.0), 0.0],
         };
         self.last = (secs, speed);
         contact.into()
     }
 
     fn place(&self) -> Place {
-        Place { x_m: self.place_m, n_jumps: 0 }
+        Place { x_m: self.place_m[0], y_m: self.place_m[1], n_jumps: 0 }
     }
 }
 

@@ -3,7 +3,7 @@
 use cpal::{SampleFormat, SupportedStreamConfigRange};
 
 use crate::engine::ChannelMask;
-use crate::output_options::{OpenOptions, USUAL_RATE_HZ};
+use crate::output_options::OpenOptions;
 
 /// Returns the stream format and the rate to open. The criteria, in order: all wanted channels if possible, the rate
 /// closest to the preferred one, as few other channels as possible, the best sample format.
@@ -11,7 +11,7 @@ pub(super) fn choose(
     configs: &[SupportedStreamConfigRange],
     options: OpenOptions,
 ) -> Option<(SupportedStreamConfigRange, u32)> {
-    let preferred_hz = options.preferred_rate_hz.unwrap_or(USUAL_RATE_HZ);
+    let preferred_hz = options.preferred_rate_hz.unwrap_or(options.usual_audio_rate_hz());
     let least_hz = options.model_rate_hz.ceil() as u32;
     let rated = configs.iter().filter(|config| config.max_sample_rate() >= least_hz).map(|config| {
         let lowest_hz = config.min_sample_rate().max(least_hz);
@@ -24,7 +24,7 @@ pub(super) fn choose(
         })
         .min_by_key(|(config, rate_hz)| {
             let n_channels = usize::from(config.channels());
-            let n_wanted = channels_to_open(options.channels);
+            let n_wanted = channels_to_open(options.all_channels());
             let missing = n_wanted.saturating_sub(n_channels);
             let rest = n_channels.saturating_sub(n_wanted);
             (missing, rate_hz.abs_diff(preferred_hz), rest, rank_of(config.sample_format()))
@@ -53,6 +53,7 @@ fn rank_of(format: SampleFormat) -> Option<u8> {
 #[cfg(test)]
 mod tests {
     use super::{ChannelMask, OpenOptions, SampleFormat, SupportedStreamConfigRange, choose};
+    use crate::engine::{FrictionConfig, FrictionWave};
     use crate::output::tests::OPTIONS;
     use cpal::SupportedBufferSize;
 
@@ -84,6 +85,20 @@ mod tests {
         assert_eq!(chosen(&configs, at(47_000)), Some((2, 48_000, SampleFormat::F32)));
         let fourth = OpenOptions { channels: ChannelMask::only(3), ..OPTIONS };
         assert_eq!(chosen(&configs, fourth), Some((6, 48_000, SampleFormat::F32)));
+    }
+
+    #[test]
+    fn friction_gets_its_channel_and_a_rate_for_its_carrier_if_there_is_one() {
+        let configs = [2, 4].map(|channels| range(channels, 8000, 192_000, SampleFormat::F32));
+        let with = |channel_idx, frequency_hz| {
+            let wave = FrictionWave::Carrier { frequency_hz };
+            OpenOptions { friction: Some(FrictionConfig { channel_idx, wave }), ..OPTIONS }
+        };
+        assert_eq!(chosen(&configs, with(2, 120.0)), Some((4, 48_000, SampleFormat::F32)));
+        assert_eq!(chosen(&configs, with(2, 30_000.0)), Some((4, 96_000, SampleFormat::F32)));
+        assert_eq!(chosen(&configs, with(3, 80_000.0)), Some((4, 192_000, SampleFormat::F32)));
+        assert_eq!(chosen(&configs[..1], with(2, 120.0)), Some((2, 48_000, SampleFormat::F32)));
+        assert_eq!(chosen(&configs[..1], with(1, 120.0)), Some((2, 48_000, SampleFormat::F32)));
     }
 
     #[test]

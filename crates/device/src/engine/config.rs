@@ -4,6 +4,8 @@ use shagreen_synth::budget::Budget;
 use shagreen_synth::drive::{DriveConfig, Inverse, MAX_LOOK_AHEAD_SECS};
 use shagreen_synth::equalizer::Resonance;
 
+use super::friction_channel::{CARRIER_SHARE, FrictionConfig, FrictionWave, LEAST_CARRIER_HZ};
+
 /// Set of device channels that get the signal; the others are silent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ChannelMask(u64);
@@ -11,6 +13,8 @@ pub struct ChannelMask(u64);
 impl ChannelMask {
     /// The first two channels, or the only channel of a mono device.
     pub const FIRST_TWO: Self = Self(0b11);
+    /// No channel.
+    pub const NONE: Self = Self(0);
 
     /// Mask of one channel, counted from zero, below 64.
     pub fn only(channel_idx: usize) -> Self {
@@ -21,6 +25,12 @@ impl ChannelMask {
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         Self(self.0 | other.0)
+    }
+
+    /// This mask without one channel.
+    #[must_use]
+    pub fn without(self, channel_idx: usize) -> Self {
+        Self(self.0 & !Self::only(channel_idx).0)
     }
 
     /// Whether a channel gets the signal.
@@ -52,6 +62,8 @@ pub struct EngineConfig {
     pub drive: DriveConfig,
     /// The channels that get the signal.
     pub channels: ChannelMask,
+    /// Channel that gets the friction, for a display that renders it.
+    pub friction: Option<FrictionConfig>,
 }
 
 /// Reasons why a configuration is invalid.
@@ -102,6 +114,25 @@ pub enum ConfigError {
         /// Thermal time constant, in seconds.
         time_secs: f32,
     },
+    /// Friction shares a channel with the vibration.
+    #[error("friction and vibration share channel {channel}; choose another channel for one of them")]
+    FrictionChannel {
+        /// Number of the channel, counted from one.
+        channel: usize,
+    },
+    /// The device cannot play the friction carrier.
+    #[error(
+        "the friction carrier is {frequency_hz} Hz; at the device's sample rate of {rate_hz} Hz it must be \
+         {LEAST_CARRIER_HZ} to {highest_hz} Hz"
+    )]
+    FrictionCarrier {
+        /// Requested frequency, in Hz.
+        frequency_hz: f32,
+        /// Highest frequency, in Hz.
+        highest_hz: f32,
+        /// The device's sample rate, in Hz.
+        rate_hz: f32,
+    },
     /// The actuator's response cannot be inverted.
     #[error(
         "the actuator's response cannot be inverted: resonance {frequency_hz} Hz, Q {q}, gain {gain_mps2_per_volt} \
@@ -132,7 +163,26 @@ impl EngineConfig {
             return Err(ConfigError::DeviceRate { device_rate_hz, model_rate_hz });
         }
         check_drive(self.drive, device_rate_hz)?;
+        if let Some(friction) = self.friction {
+            check_friction(friction, self.channels, device_rate_hz)?;
+        }
         Ok(self)
+    }
+}
+
+fn check_friction(friction: FrictionConfig, channels: ChannelMask, rate_hz: f32) -> Result<(), ConfigError> {
+    let FrictionConfig { channel_idx, wave } = friction;
+    if channels.contains(channel_idx) {
+        return Err(ConfigError::FrictionChannel { channel: channel_idx + 1 });
+    }
+    let highest_hz = CARRIER_SHARE * rate_hz;
+    match wave {
+        FrictionWave::Carrier { frequency_hz }
+            if !(LEAST_CARRIER_HZ..=highest_hz).contains(&frequency_hz) =>
+        {
+            Err(ConfigError::FrictionCarrier { frequency_hz, highest_hz, rate_hz })
+        }
+        FrictionWave::Carrier { .. } | FrictionWave::Level => Ok(()),
     }
 }
 
@@ -166,7 +216,10 @@ fn check_drive(drive: DriveConfig, rate_hz: f32) -> Result<(), ConfigError> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Budget, ChannelMask, ConfigError, DriveConfig, EngineConfig, Inverse, Resonance};
+    use super::{
+        Budget, ChannelMask, ConfigError, DriveConfig, EngineConfig, FrictionConfig, FrictionWave, Inverse,
+        Resonance,
+    };
 
     const GOOD: EngineConfig = EngineConfig {
         model_rate_hz: 1000.0,
@@ -174,6 +227,7 @@ mod tests {
         seed: 0,
         drive: DRIVE,
         channels: ChannelMask::FIRST_TWO,
+        friction: None,
     };
     const RESONANCE: Resonance = Resonance { frequency_hz: 65.0, q: 4.0, gain_mps2_per_volt: 2.0 };
     const DRIVE: DriveConfig = DriveConfig {
@@ -233,11 +287,35 @@ mod tests {
     }
 
     #[test]
+    fn friction_needs_a_channel_of_its_own_and_a_carrier_below_half_the_rate() {
+        let check = |channel_idx, wave| {
+            EngineConfig { friction: Some(FrictionConfig { channel_idx, wave }), ..GOOD }.check().map(|_| ())
+        };
+        let carrier = |frequency_hz| FrictionWave::Carrier { frequency_hz };
+        assert_eq!(check(2, carrier(120.0)), Ok(()));
+        assert_eq!(check(2, carrier(20_000.0)), Ok(()));
+        assert_eq!(check(5, FrictionWave::Level), Ok(()));
+        assert_eq!(check(1, carrier(120.0)), Err(ConfigError::FrictionChannel { channel: 2 }));
+        for bad in [f32::NAN, 0.0, 19.0, 21_700.0, f32::INFINITY] {
+            let error = check(2, carrier(bad)).unwrap_err();
+            assert!(matches!(error, ConfigError::FrictionCarrier { .. }), "{error}");
+        }
+        let text = check(2, carrier(30_000.0)).unwrap_err().to_string();
+        assert!(
+            text.contains("30000 Hz") && text.contains("48000 Hz") && text.contains("20 to 21600"),
+            "{text}"
+        );
+    }
+
+    #[test]
     fn masks_name_channels() {
         let mask = ChannelMask::only(5).and(ChannelMask::only(2));
         assert_eq!((0..8).filter(|&c| mask.contains(c)).collect::<Vec<_>>(), [2, 5]);
         assert_eq!((mask.n_least(), mask.n_wanted()), (3, 6));
         assert!(ChannelMask::only(63).contains(63) && !ChannelMask::only(64).contains(64));
+        assert_eq!(ChannelMask::FIRST_TWO.without(1), ChannelMask::only(0));
+        assert_eq!(ChannelMask::only(4).without(4), ChannelMask::NONE);
+        assert_eq!(ChannelMask::only(4).without(99), ChannelMask::only(4));
         assert_eq!((ChannelMask::FIRST_TWO.n_least(), ChannelMask::FIRST_TWO.n_wanted()), (1, 2));
     }
 }

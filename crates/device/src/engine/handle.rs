@@ -44,7 +44,7 @@ pub struct LoadError {
     /// Reason for the failure.
     pub reason: LoadReason,
     /// The texture.
-    pub texture: OwnedTexture,
+    pub texture: Box<OwnedTexture>,
 }
 
 /// Reasons why a mix was rejected. The previous mix stays active.
@@ -132,6 +132,7 @@ impl Handle {
     /// # Errors
     /// [`LoadError`] gives the reason and returns the texture.
     pub fn load(&mut self, texture: OwnedTexture) -> Result<TextureId, LoadError> {
+        let texture = Box::new(texture);
         let (texture_rate_hz, model_rate_hz) = (texture.rate_hz(), self.config.model_rate_hz);
         if texture_rate_hz != model_rate_hz {
             return Err(LoadError { reason: LoadReason::Rate { texture_rate_hz, model_rate_hz }, texture });
@@ -144,7 +145,7 @@ impl Handle {
             return Err(LoadError { reason: LoadReason::RingFull, texture });
         }
         let id = idx as TextureId;
-        self.send(Command::Load(id, Box::new(texture)));
+        self.send(Command::Load(id, texture));
         self.slots[idx] = Slot::Loaded;
         Ok(id)
     }

@@ -3,6 +3,7 @@
 use std::mem::{Discriminant, discriminant};
 
 use shagreen_synth::contact::{Contact, ContactSource, Place};
+use shagreen_synth::tap::REFERENCE_IMPACT_MPS;
 
 use super::FADE_SECS;
 use super::place::FollowedPlace;
@@ -12,9 +13,7 @@ use crate::live::TimedTouch;
 use crate::touch::{Touch, mix_contacts};
 use crate::track::Track;
 
-/// Impact speed at which tap transients were measured, in m/s. Recordings do not state it; this is a light tap by hand.
-const USUAL_LANDING_MPS: f32 = 0.1;
-/// Range of the strength relative to the measured tap. Estimates of the impact speed are rough.
+/// Range of the impact speed relative to [`REFERENCE_IMPACT_MPS`]. Estimates of the impact speed are rough.
 const STRENGTHS: (f32, f32) = (0.1, 3.0);
 /// Shortest time between two contact onsets, in seconds. An earlier one is contact bounce.
 const CHATTER_SECS: f64 = 0.030;
@@ -26,7 +25,7 @@ const PATIENCE_SECS: f64 = 0.030;
 pub(super) struct Landing {
     /// Time at which its tap transient starts, on the stream's clock, in seconds.
     pub(super) stream_secs: f64,
-    /// Strength relative to the measured tap.
+    /// Impact speed relative to [`REFERENCE_IMPACT_MPS`], within [`STRENGTHS`].
     pub(super) strength: f32,
 }
 
@@ -52,7 +51,7 @@ pub(super) struct Player {
     track_secs: f64,
     live: Touch,
     live_secs: f64,
-    /// Tip position along a relief.
+    /// Tip position on the pad.
     place: FollowedPlace,
     /// Kind of the input in the last tick.
     last_kind: Discriminant<Input>,
@@ -156,11 +155,11 @@ impl Player {
         let was_touching = self.live.contact.force_n > 0.0;
         self.live = touch.sanitized();
         self.live_secs = self.clock_secs - age_secs;
-        let x_m = f64::from(self.live.x_m);
+        let place_m = place_of(self.live);
         if was_touching {
-            self.place.report(x_m, self.live_secs);
+            self.place.report(place_m, self.live_secs);
         } else {
-            self.place.begin(x_m, self.live_secs);
+            self.place.begin(place_m, self.live_secs);
         }
         if is_near || self.live_is_near {
             self.near_secs = self.live_secs;
@@ -169,9 +168,7 @@ impl Player {
         if self.live.contact.force_n == 0.0 {
             self.live_landing = None;
         } else if !was_touching {
-            let relative = landing_mps.map_or(1.0, |mps| mps / USUAL_LANDING_MPS);
-            let strength = if relative.is_nan() { 1.0 } else { relative.clamp(STRENGTHS.0, STRENGTHS.1) };
-            self.live_landing = Some((self.clock_secs, strength));
+            self.live_landing = Some((self.clock_secs, strength_of(landing_mps)));
         }
         self.look_for_a_hand();
     }
@@ -255,6 +252,17 @@ impl Player {
         self.track_is_down = !self.has_taken_over && self.touch.contact.force_n > 0.0;
     }
 
+    /// Impact speed of the contact in progress in the track, in m/s, if it is known. A repetition at another tempo lands
+    /// faster or slower in proportion.
+    fn track_impact_mps(&self) -> Option<f32> {
+        let track = self.track.as_ref()?;
+        match self.input() {
+            Input::Track => track.impact_mps_at(self.input_secs()),
+            Input::Repeat(repeat) => track.impact_mps_at(self.track_secs).map(|mps| repeat.tempo * mps),
+            _ => None,
+        }
+    }
+
     /// Returns the touch of the input, `step_secs` after the last call.
     fn asked(&mut self, step_secs: f64) -> Touch {
         match self.input() {
@@ -287,6 +295,17 @@ impl Player {
     }
 }
 
+/// Returns the strength of a contact onset; 1 if its impact speed is unknown.
+fn strength_of(impact_mps: Option<f32>) -> f32 {
+    let relative = impact_mps.map_or(1.0, |mps| mps / REFERENCE_IMPACT_MPS as f32);
+    if relative.is_nan() { 1.0 } else { relative.clamp(STRENGTHS.0, STRENGTHS.1) }
+}
+
+/// Position of a touch to the right and upwards, in m.
+fn place_of(touch: Touch) -> [f64; 2] {
+    [touch.x_m, touch.y_m].map(f64::from)
+}
+
 /// Whether an input plays a track.
 fn is_track(input: Input) -> bool {
     matches!(input, Input::Track | Input::Repeat(_))
@@ -305,7 +324,8 @@ impl ContactSource for Player {
         if is_track(self.input()) {
             let is_down = touch.contact.force_n > 0.0;
             if is_down && !self.track_is_down {
-                self.track_landing = Some(Landing { stream_secs: time_secs, strength: 1.0 });
+                let strength = strength_of(self.track_impact_mps());
+                self.track_landing = Some(Landing { stream_secs: time_secs, strength });
             }
             self.track_is_down = is_down;
         }
@@ -317,7 +337,7 @@ impl ContactSource for Player {
         if kind != self.last_kind {
             self.last_kind = kind;
             if self.input() == Input::Live {
-                self.place.begin(f64::from(self.live.x_m), self.live_secs);
+                self.place.begin(place_of(self.live), self.live_secs);
             } else {
                 self.place.jump();
             }
@@ -328,7 +348,7 @@ impl ContactSource for Player {
             }
             // A lifting tip keeps its position.
             Input::Lifted => {}
-            _ => self.place.set(f64::from(touch.x_m)),
+            _ => self.place.set(place_of(touch)),
         }
         if touch.contact.force_n > 0.0 {
             // The level rises from zero within the tick that ends now.

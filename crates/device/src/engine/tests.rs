@@ -5,6 +5,7 @@ mod relief;
 mod signals;
 #[cfg(target_os = "linux")]
 mod soak;
+mod tap_latency;
 mod taps;
 
 use std::sync::Arc;
@@ -30,6 +31,7 @@ const CONFIG: EngineConfig = EngineConfig {
     seed: 11,
     drive: DriveConfig::proportional(10.0, 1.0),
     channels: ChannelMask::FIRST_TWO,
+    friction: None,
 };
 
 const HAND: Hand = Hand { path: Path::Line, speed_mps: 0.8, force_n: 0.9, extent_m: 0.06 };
@@ -53,7 +55,8 @@ fn stroking(config: EngineConfig, level_mps2: f32) -> (Handle, Engine) {
 fn track(n_samples: u32) -> Track {
     let sample = |i| {
         let time_secs = f64::from(i) * 0.007;
-        PenSample { time_secs, x_m: 0.4 * time_secs, y_m: 0.0, force_n: 0.6, touching: i % 40 < 30 }
+        let touching = i % 40 < 30;
+        PenSample { time_secs, x_m: 0.4 * time_secs, force_n: 0.6, touching, ..PenSample::default() }
     };
     Track::new(&(0..n_samples).map(sample).collect::<Vec<_>>()).unwrap()
 }
@@ -178,7 +181,7 @@ fn every_place_taken_gives_the_texture_back() {
         assert_eq!(usize::from(handle.load(white(1.0)).unwrap()), id);
     }
     let error = handle.load(white(7.0)).unwrap_err();
-    assert_eq!((error.reason, error.texture), (LoadReason::NoSlot, white(7.0)));
+    assert_eq!((error.reason, *error.texture), (LoadReason::NoSlot, white(7.0)));
     play(&mut engine, 10, 10);
     handle.unload(5);
     play(&mut engine, 10, 10);
@@ -193,7 +196,7 @@ fn a_full_ring_gives_back_what_was_sent() {
     }
     assert_eq!(handle.play_track(track(4)), Err(track(4)));
     let error = handle.load(white(2.0)).unwrap_err();
-    assert_eq!((error.reason, error.texture), (LoadReason::RingFull, white(2.0)));
+    assert_eq!((error.reason, *error.texture), (LoadReason::RingFull, white(2.0)));
     play(&mut engine, 1, 1);
     handle.load(white(2.0)).unwrap();
 }

@@ -5,8 +5,13 @@
 //! `dF/dt = k v`. The stiffness of grip, pen tip and pad in series is unknown for the actual pen, so
 //! [`STIFFNESS_N_PER_M`] is used for all. A pen also reports only every 4 to 8 ms, so short taps are underestimated.
 //! The estimate ranks taps by speed; its scale is nominal.
+//!
+//! A tap transient cannot wait for three reports of the force: it would be late. It uses
+//! [`ImpactSpeedEstimator::first_estimate_mps`].
 
 use std::collections::VecDeque;
+
+use shagreen_synth::tap::REFERENCE_IMPACT_MPS;
 
 /// Assumed stiffness of the contact of a pen with a pad, in N/m: 0.4 mm of deflection under 4 N.
 pub const STIFFNESS_N_PER_M: f64 = 1e4;
@@ -46,6 +51,8 @@ struct Contact {
     rise_nps: f64,
     n_reports: u32,
     is_told: bool,
+    /// Speed by the heights before the contact.
+    height_mps: Option<f32>,
 }
 
 impl ImpactSpeedEstimator {
@@ -83,6 +90,20 @@ impl ImpactSpeedEstimator {
         landing
     }
 
+    /// Returns the impact speed in m/s as far as the first report of a contact states it, after that report only: from the
+    /// heights, or else from the force that it states.
+    ///
+    /// The tip landed at an unknown time since the report before, on average half-way, so the force has risen twice as
+    /// fast as the interval says. One force says little: the result is the mean of this speed and of
+    /// [`REFERENCE_IMPACT_MPS`], at which a tap of unknown speed is played.
+    pub fn first_estimate_mps(&self) -> Option<f32> {
+        let contact = self.contact.filter(|contact| contact.n_reports == 1)?;
+        contact.height_mps.or_else(|| {
+            let by_force_mps = (2.0 * contact.rise_nps / STIFFNESS_N_PER_M).min(MAX_LANDING_MPS);
+            (by_force_mps > 0.0).then_some((0.5 * (REFERENCE_IMPACT_MPS + by_force_mps)) as f32)
+        })
+    }
+
     /// Clears the state, for a device that was unplugged or another pen.
     pub fn forget(&mut self) {
         *self = Self::default();
@@ -111,6 +132,7 @@ impl ImpactSpeedEstimator {
             rise_nps,
             n_reports: 1,
             is_told: by_height.is_some(),
+            height_mps: by_height.map(|landing| landing.speed_mps),
         });
         by_height
     }
@@ -171,6 +193,31 @@ mod tests {
                 assert!(!found[0].is_from_height && (share - 1.0).abs() < 1e-5, "{share}");
             }
         }
+    }
+
+    /// Estimate after the first report of a contact, and whether the next report has one.
+    fn first_estimate(speed_mps: f64, tells_height: bool) -> (Option<f32>, bool) {
+        let mut estimator = ImpactSpeedEstimator::default();
+        // The tip lands half-way between two reports.
+        for depth_m in [-1.5, -0.5].map(|steps| steps * 0.004 * speed_mps) {
+            estimator.report(depth_m / speed_mps, tells_height.then_some(-depth_m), 0.0, false);
+            assert_eq!(estimator.first_estimate_mps(), None, "in the air");
+        }
+        estimator.report(0.002, Some(0.0), STIFFNESS_N_PER_M * 0.002 * speed_mps, true);
+        let first = estimator.first_estimate_mps();
+        estimator.report(0.006, Some(0.0), STIFFNESS_N_PER_M * 0.006 * speed_mps, true);
+        (first, estimator.first_estimate_mps().is_some())
+    }
+
+    #[test]
+    fn the_first_report_has_an_estimate_between_the_reference_and_the_speed() {
+        for speed_mps in [0.02, 0.1, 0.5] {
+            let (first, second) = first_estimate(speed_mps, true);
+            assert!((f64::from(first.unwrap()) / speed_mps - 1.0).abs() < 1e-6 && !second);
+            let (first, second) = first_estimate(speed_mps, false);
+            assert!((f64::from(first.unwrap()) - 0.5 * (0.1 + speed_mps)).abs() < 1e-6 && !second);
+        }
+        assert_eq!(ImpactSpeedEstimator::default().first_estimate_mps(), None);
     }
 
     #[test]

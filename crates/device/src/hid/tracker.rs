@@ -33,6 +33,9 @@ pub struct TrackedSample {
     pub touch: Touch,
     /// Contact onset that can be estimated with this report.
     pub landing: Option<Landing>,
+    /// Impact speed in m/s of a contact that begins with this report, as far as it is known now: a tap transient cannot
+    /// wait for more reports ([`ImpactSpeedEstimator::first_estimate_mps`]).
+    pub impact_mps: Option<f32>,
 }
 
 impl TrackedSample {
@@ -40,7 +43,8 @@ impl TrackedSample {
     pub fn sample(&self) -> Option<PenSample> {
         let [x_m, y_m] = self.place_m?;
         let touching = self.report.touching();
-        Some(PenSample { time_secs: self.time_secs, x_m, y_m, force_n: self.force_n, touching })
+        let impact_mps = self.impact_mps.map(f64::from);
+        Some(PenSample { time_secs: self.time_secs, x_m, y_m, force_n: self.force_n, touching, impact_mps })
     }
 }
 
@@ -125,7 +129,8 @@ impl PenTracker {
         let touch = Touch { x_m: place[0], y_m: place[1], contact }.sanitized();
         self.last_touch = touch;
         let landing = self.landings.report(time_secs, report.distance_m, force_n, touching);
-        Some(TrackedSample { time_secs, report, place_m, force_n, touch, landing })
+        let impact_mps = self.landings.first_estimate_mps();
+        Some(TrackedSample { time_secs, report, place_m, force_n, touch, landing, impact_mps })
     }
 
     /// Returns the touch after the pen was disconnected: lifted at its last position.

@@ -1,6 +1,9 @@
 //! Messages of the serial protocol in both directions. All numbers are little-endian.
 
+mod mode;
 mod payload;
+
+pub use self::mode::Mode;
 
 use self::payload::{Reader, Writer};
 use crate::serial::frame::{Frame, MAX_PAYLOAD, MAX_WIRE, encode};
@@ -15,16 +18,6 @@ pub const MAX_SENSOR_SAMPLES: usize = (MAX_PAYLOAD - 10) / 2;
 pub const MAX_NAME: usize = 32;
 /// Longest text of a fault, in bytes.
 pub const MAX_FAULT: usize = 64;
-
-/// Rendering mode.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mode {
-    /// The host renders and streams samples.
-    #[default]
-    Stream,
-    /// The host sends speed and force, and the receiver renders.
-    Control,
-}
 
 /// Playback settings for a receiver. It may use smaller numbers of samples than requested, but never a higher ceiling.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -170,6 +163,7 @@ pub struct DeviceStatus {
 }
 
 /// Identity and capabilities of a receiver.
+#[expect(clippy::struct_excessive_bools, reason = "each is one capability bit of the protocol")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HelloReply<'a> {
     /// Nonce of the answered hello; 0 right after a reset.
@@ -182,6 +176,8 @@ pub struct HelloReply<'a> {
     pub has_control: bool,
     /// Whether it sends [`DeviceMessage::Sensor`].
     pub has_sensor: bool,
+    /// Whether it plays levels of friction.
+    pub has_friction: bool,
     /// Lowest sample rate, in Hz.
     pub rate_min_hz: u16,
     /// Highest sample rate, in Hz.
@@ -241,6 +237,7 @@ const FAULT: u8 = 0x84;
 const HAS_STREAM: u8 = 1;
 const HAS_CONTROL: u8 = 2;
 const HAS_SENSOR: u8 = 4;
+const HAS_FRICTION: u8 = 8;
 
 /// Decodes a frame from the host. Returns `None` for an unknown type, which later protocol versions may send.
 ///
@@ -370,11 +367,7 @@ pub fn write_to_host(message: DeviceMessage<'_>, wire: &mut [u8; MAX_WIRE]) -> u
 
 fn read_configure(r: &mut Reader<'_>) -> Result<Configure, Malformed> {
     let config = r.u8()?;
-    let mode = match r.u8()? {
-        0 => Mode::Stream,
-        1 => Mode::Control,
-        _ => return Err(Malformed),
-    };
+    let mode = Mode::of_code(r.u8()?).ok_or(Malformed)?;
     let configure = Configure {
         config,
         mode,
@@ -392,10 +385,7 @@ fn read_configure(r: &mut Reader<'_>) -> Result<Configure, Malformed> {
 
 fn write_configure(w: &mut Writer, configure: Configure) {
     w.u8(configure.config);
-    w.u8(match configure.mode {
-        Mode::Stream => 0,
-        Mode::Control => 1,
-    });
+    w.u8(configure.mode.code());
     let numbers = [
         configure.rate_hz,
         configure.ceiling,
@@ -423,6 +413,7 @@ fn read_hello_reply<'a>(nonce: u16, r: &mut Reader<'a>) -> Result<HelloReply<'a>
         has_stream: flags & HAS_STREAM != 0,
         has_control: flags & HAS_CONTROL != 0,
         has_sensor: flags & HAS_SENSOR != 0,
+        has_friction: flags & HAS_FRICTION != 0,
         rate_min_hz: r.u16()?,
         rate_max_hz: r.u16()?,
         buffer: r.u16()?,
@@ -440,7 +431,8 @@ fn write_hello_reply(w: &mut Writer, reply: HelloReply<'_>) {
     w.u8(reply.version);
     w.u8(flag(reply.has_stream, HAS_STREAM)
         | flag(reply.has_control, HAS_CONTROL)
-        | flag(reply.has_sensor, HAS_SENSOR));
+        | flag(reply.has_sensor, HAS_SENSOR)
+        | flag(reply.has_friction, HAS_FRICTION));
     w.u16(reply.rate_min_hz);
     w.u16(reply.rate_max_hz);
     w.u16(reply.buffer);

@@ -11,6 +11,12 @@ use crate::serial::sender::Plan;
 
 /// Default sample rate on a serial line, in Hz.
 pub const USUAL_SERIAL_RATE_HZ: u32 = 4000;
+/// Default rate of friction levels on a serial line, in Hz.
+const USUAL_FRICTION_RATE_HZ: u32 = 10_000;
+/// Lowest rate of friction levels, in Hz: that of a published variable-friction display, one level every 0.12 ms (D. J.
+/// Meyer, M. A. Peshkin and J. E. Colgate, "Modeling and Synthesis of Tactile Texture with Spatial Spectrograms for
+/// Display on Variable Friction Surfaces", 2015).
+const LEAST_FRICTION_RATE_HZ: u32 = 8334;
 /// Default length of the receiver's queue, in seconds.
 const WINDOW_SECS: f64 = 0.010;
 /// Duration of a fade in the receiver, in seconds.
@@ -25,6 +31,7 @@ const STATUS_BYTES: f64 = 26.0;
 const LEAST_BUFFER: u16 = 8;
 
 /// Capabilities of a receiver, from its hello reply.
+#[expect(clippy::struct_excessive_bools, reason = "each is one capability bit of the protocol")]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReceiverInfo {
     /// Name of the receiver; may be empty.
@@ -37,6 +44,8 @@ pub struct ReceiverInfo {
     pub has_control: bool,
     /// Whether it sends accelerometer samples.
     pub has_sensor: bool,
+    /// Whether it plays levels of friction.
+    pub has_friction: bool,
     /// Lowest sample rate, in Hz.
     pub rate_min_hz: u16,
     /// Highest sample rate, in Hz.
@@ -55,6 +64,7 @@ impl ReceiverInfo {
             has_stream: reply.has_stream,
             has_control: reply.has_control,
             has_sensor: reply.has_sensor,
+            has_friction: reply.has_friction,
             rate_min_hz: reply.rate_min_hz,
             rate_max_hz: reply.rate_max_hz,
             buffer: reply.buffer,
@@ -94,12 +104,15 @@ pub(super) fn agree(
             info.version
         ));
     }
-    let (has_mode, mode_name) = match serial.mode {
-        Mode::Stream => (info.has_stream, "play samples"),
-        Mode::Control => (info.has_control, "render textures itself"),
+    let (has_mode, mode_name, advice) = match serial.mode {
+        Mode::Stream => (info.has_stream, "play samples", "choose another mode"),
+        Mode::Control => (info.has_control, "render textures itself", "choose another mode"),
+        Mode::Friction => {
+            (info.has_friction, "render friction", "update its firmware, or choose another mode")
+        }
     };
     if !has_mode {
-        return refuse(format!("the receiver on `{id}` cannot {mode_name}; choose the other mode"));
+        return refuse(format!("the receiver on `{id}` cannot {mode_name}; {advice}"));
     }
     if info.buffer < LEAST_BUFFER || info.frame_max == 0 || info.buffer > 0x7FFF {
         return refuse(format!(
@@ -118,18 +131,23 @@ pub(super) fn agree(
     let report = f64::from(block / 2)
         .max(2.0 * BITS_PER_BYTE * STATUS_BYTES * f64::from(rate_hz) / f64::from(serial.baud));
     let rate = f64::from(rate_hz);
+    // Levels of friction are no acceleration: they end at 1, and the receiver's own drive has its own limits.
+    let (ceiling, full_scale_mps2) = match serial.mode {
+        Mode::Friction => (1.0, 0.0),
+        Mode::Stream | Mode::Control => (options.drive.ceiling, options.drive.full_scale_mps2()),
+    };
     let configure = Configure {
         config: 1,
         mode: serial.mode,
         rate_hz: rate_hz as u16,
         // The limiter's ceiling is converted like a sample, so that both ceilings are equal.
-        ceiling: (options.drive.ceiling.clamp(0.0, 1.0) * 32_768.0).min(32_767.0) as u16,
+        ceiling: (ceiling.clamp(0.0, 1.0) * 32_768.0).min(32_767.0) as u16,
         watchdog_ms: serial.watchdog_ms.max(10),
         window,
         prefill: (window * 3 / 5).min(window / block * block).max(1),
         report: (report.ceil() as u16).max(1),
         fade: ((FADE_SECS * rate) as u16).max(1),
-        full_scale_cmps2: (100.0 * options.drive.full_scale_mps2()).round() as u16,
+        full_scale_cmps2: (100.0 * full_scale_mps2).round() as u16,
     };
     let stall = Duration::from_millis(u64::from(configure.watchdog_ms / 2));
     Ok(Plan { configure, block, stall })
@@ -154,10 +172,16 @@ fn choose_rate(
         let bits = line_bits_per_sec(f64::from(rate_hz), f64::from(block));
         serial.mode == Mode::Control || bits <= LINE_SHARE * f64::from(serial.baud)
     };
+    let (usual_hz, what, needed_hz) = match serial.mode {
+        Mode::Friction => {
+            (USUAL_FRICTION_RATE_HZ, "friction needs", model_rate_hz.max(LEAST_FRICTION_RATE_HZ))
+        }
+        Mode::Stream | Mode::Control => (USUAL_SERIAL_RATE_HZ, "the textures need", model_rate_hz),
+    };
     let wished = options.preferred_rate_hz.unwrap_or_else(|| {
-        // The highest rate that the line carries, in steps of 100 Hz, but at least the textures' rate.
-        let usual = USUAL_SERIAL_RATE_HZ.max(model_rate_hz).clamp(least, most.max(least));
-        let steps = (model_rate_hz.max(least)..=usual).rev();
+        // The highest rate that the line carries, in steps of 100 Hz, but at least the needed one.
+        let usual = usual_hz.max(needed_hz).clamp(least, most.max(least));
+        let steps = (needed_hz.max(least)..=usual).rev();
         steps
             .filter(|rate_hz| rate_hz % 100 == 0 || *rate_hz == usual)
             .find(|&rate_hz| is_carried(rate_hz))
@@ -168,9 +192,13 @@ fn choose_rate(
             "the receiver on `{id}` plays at {least} to {most} Hz, not {wished} Hz; choose another rate"
         ));
     }
-    if wished < model_rate_hz {
+    if wished < needed_hz {
+        let advice = match serial.mode {
+            Mode::Friction => "choose a higher rate, or change its firmware",
+            Mode::Stream | Mode::Control => "choose a higher rate or other textures",
+        };
         return refuse(format!(
-            "the receiver on `{id}` plays at {wished} Hz, the textures need {model_rate_hz} Hz; choose a higher rate or other textures"
+            "the receiver on `{id}` plays at {wished} Hz, {what} {needed_hz} Hz; {advice}"
         ));
     }
     if !is_carried(wished) {
@@ -201,6 +229,7 @@ mod tests {
             has_stream: true,
             has_control: false,
             has_sensor: false,
+            has_friction: false,
             rate_min_hz: 500,
             rate_max_hz: 8000,
             buffer: 256,
@@ -242,6 +271,27 @@ mod tests {
         let serial = SerialOptions { baud: 19_200, mode: Mode::Control, ..SerialOptions::default() };
         let able = ReceiverInfo { has_control: true, ..info() };
         assert_eq!(agree("x", &able, OPTIONS, serial).unwrap().configure.rate_hz, 4000);
+    }
+
+    #[test]
+    fn friction_is_streamed_at_its_rate_or_refused() {
+        let serial = SerialOptions { mode: Mode::Friction, ..SerialOptions::default() };
+        let display = ReceiverInfo { has_friction: true, rate_max_hz: 16_000, ..info() };
+        let c = agree("serial:x", &display, OPTIONS, serial).unwrap().configure;
+        assert_eq!((c.mode, c.rate_hz, c.window), (Mode::Friction, 10_000, 100));
+        assert_eq!((c.ceiling, c.full_scale_cmps2), (32_767, 0));
+        let refusal = |info: &ReceiverInfo, options: OpenOptions, serial: SerialOptions| {
+            agree("serial:x", info, options, serial).unwrap_err().to_string()
+        };
+        // A receiver of earlier firmware does not state the capability.
+        let old = refusal(&info(), OPTIONS, serial);
+        assert!(old.contains("cannot render friction") && old.contains("update its firmware"), "{old}");
+        let slow = refusal(&ReceiverInfo { rate_max_hz: 8000, ..display.clone() }, OPTIONS, serial);
+        assert!(slow.contains("8000 Hz, friction needs 8334 Hz"), "{slow}");
+        let low = OpenOptions { preferred_rate_hz: Some(4000), ..OPTIONS };
+        assert!(refusal(&display, low, serial).contains("friction needs 8334 Hz"));
+        let line = refusal(&display, OPTIONS, SerialOptions { baud: 115_200, ..serial });
+        assert!(line.contains("115200 baud") && line.contains("10000 Hz"), "{line}");
     }
 
     #[test]

@@ -28,6 +28,7 @@ use crate::serial::message::{
 };
 
 /// Identity and capabilities of a receiver.
+#[expect(clippy::struct_excessive_bools, reason = "each is one capability bit of the protocol")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct About {
     /// Whether it plays samples.
@@ -36,6 +37,8 @@ pub struct About {
     pub has_control: bool,
     /// Whether it sends accelerometer samples.
     pub has_sensor: bool,
+    /// Whether it plays levels of friction.
+    pub has_friction: bool,
     /// Lowest sample rate, in Hz.
     pub rate_min_hz: u16,
     /// Highest sample rate, in Hz.
@@ -50,6 +53,7 @@ impl About {
         has_stream: true,
         has_control: false,
         has_sensor: false,
+        has_friction: false,
         rate_min_hz: 1000,
         rate_max_hz: 16_000,
         name: "",
@@ -158,7 +162,7 @@ impl<const N: usize> Receiver<N> {
             self.gain = self.gain.saturating_sub(1);
             if self.gain == 0 {
                 self.is_falling = false;
-                if self.is_playing && self.queue.len() == 0 && settings.mode == Mode::Stream {
+                if self.is_playing && self.queue.len() == 0 && settings.mode.is_streamed() {
                     self.starve();
                 }
             }
@@ -178,7 +182,7 @@ impl<const N: usize> Receiver<N> {
         }
         let faded = i32::from(self.held) * i32::from(self.gain) / i32::from(settings.fade);
         let ceiling = i32::from(settings.ceiling);
-        faded.clamp(-ceiling, ceiling) as i16
+        faded.clamp(settings.mode.floor(ceiling), ceiling) as i16
     }
 
     /// Encodes the next frame to send. Returns its length in bytes, or 0 if there is none. A newer status replaces an
@@ -271,6 +275,7 @@ impl<const N: usize> Receiver<N> {
         let has_mode = match asked.mode {
             Mode::Stream => self.about.has_stream,
             Mode::Control => self.about.has_control,
+            Mode::Friction => self.about.has_friction,
         };
         if !has_mode || !(self.about.rate_min_hz..=self.about.rate_max_hz).contains(&asked.rate_hz) {
             self.fault(true, "no such mode or rate");
@@ -293,7 +298,8 @@ impl<const N: usize> Receiver<N> {
 
     fn take_samples(&mut self, seq: u16, run: u8, samples: SampleBytes<'_>) {
         let mut n_new = 0;
-        if self.is_configured_for(Mode::Stream) && run == self.run {
+        let is_streamed = self.settings.config != 0 && self.settings.mode.is_streamed();
+        if is_streamed && run == self.run {
             self.unfed_ticks = 0;
             n_new = self.queue.put(seq, samples, usize::from(self.settings.window));
         }
@@ -303,17 +309,14 @@ impl<const N: usize> Receiver<N> {
 
     fn take_control(&mut self, seq: u16, run: u8, control: Control) {
         let is_newer = self.control_seq.is_none_or(|last| seq.wrapping_sub(last).cast_signed() > 0);
-        if self.is_configured_for(Mode::Control) && run == self.run && is_newer {
+        let is_controlled = self.settings.config != 0 && !self.settings.mode.is_streamed();
+        if is_controlled && run == self.run && is_newer {
             (self.control, self.control_seq) = (control, Some(seq));
             (self.is_playing, self.unfed_ticks) = (true, 0);
         } else {
             self.dropped = self.dropped.wrapping_add(1);
         }
         self.is_status_due |= self.settings.config == 0;
-    }
-
-    fn is_configured_for(&self, mode: Mode) -> bool {
-        self.settings.config != 0 && self.settings.mode == mode
     }
 
     /// Schedules a status every `report` ticks.
@@ -369,7 +372,8 @@ impl<const N: usize> Receiver<N> {
     }
 
     fn hello_reply(&self, nonce: u16) -> HelloReply<'static> {
-        let About { has_stream, has_control, has_sensor, rate_min_hz, rate_max_hz, name } = self.about;
+        let About { has_stream, has_control, has_sensor, has_friction, rate_min_hz, rate_max_hz, name } =
+            self.about;
         let (buffer, frame_max) = (N.min(0x7FFF) as u16, MAX_SAMPLES as u8);
         let name = name.as_bytes();
         HelloReply {
@@ -378,6 +382,7 @@ impl<const N: usize> Receiver<N> {
             has_stream,
             has_control,
             has_sensor,
+            has_friction,
             rate_min_hz,
             rate_max_hz,
             buffer,

@@ -156,7 +156,7 @@ impl Sender {
         }
         self.stopped_run = None;
         match self.plan.configure.mode {
-            Mode::Stream => self.stream(now, status, source, outbox),
+            Mode::Stream | Mode::Friction => self.stream(now, status, source, outbox),
             Mode::Control => self.control(status, source, outbox),
         }
     }

@@ -2,7 +2,7 @@ use super::{Contact, PenSample, Touch, Track, TrackError};
 use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
 
 fn sample(time_secs: f64, x_m: f64) -> PenSample {
-    PenSample { time_secs, x_m, y_m: 0.0, force_n: 0.5, touching: true }
+    PenSample { time_secs, x_m, force_n: 0.5, touching: true, ..PenSample::default() }
 }
 
 fn close(a: f32, b: f64) {
@@ -54,6 +54,42 @@ fn a_lift_is_force_zero_at_its_report() {
     assert_eq!(track.touch_at(0.029).contact, Contact::LIFTED);
     // The next stroke starts at rest, wherever the last one ended.
     assert_eq!(track.touch_at(0.030).contact, Contact { speed_mps: 0.0, force_n: 0.5 });
+}
+
+#[test]
+fn each_contact_has_the_impact_speed_that_is_stated_around_its_onset() {
+    let at = |time_secs: f64, touching: bool, impact_mps: Option<f64>| PenSample {
+        touching,
+        impact_mps,
+        ..sample(time_secs, 0.0)
+    };
+    let track = Track::new(&[
+        at(3.000, true, Some(0.05)),
+        // Within a contact, the speed is not that of an impact.
+        at(3.010, true, Some(9.0)),
+        at(3.020, false, Some(0.2)),
+        at(3.030, true, Some(0.0)),
+        at(3.040, false, None),
+        at(3.050, true, None),
+        // A gap, after which the tip lands again.
+        at(3.950, true, Some(0.3)),
+    ])
+    .unwrap();
+    for (time_secs, impact_mps) in [
+        (0.0, Some(0.05)),
+        (0.015, Some(0.05)),
+        // A contact begins on the grid up to a millisecond before its report.
+        (0.0291, Some(0.2)),
+        (0.035, Some(0.2)),
+        (0.051, None),
+        (0.94, None),
+        (0.950, Some(0.3)),
+    ] {
+        assert_eq!(track.impact_mps_at(time_secs), impact_mps, "{time_secs} s");
+    }
+    assert_eq!(track.impact_mps_at(-1.0), None);
+    let endless = PenSample { impact_mps: Some(f64::INFINITY), ..sample(0.0, 0.0) };
+    assert_eq!(Track::new(&[endless]), Err(TrackError::NotFinite { index: 0 }));
 }
 
 #[test]

@@ -1,10 +1,13 @@
 //! Actuator and texture for the tests of the audio callback.
 
+use shagreen_device::engine::{FrictionConfig, FrictionWave};
 use shagreen_device::synth::budget::Budget;
 use shagreen_device::synth::drive::{DriveConfig, Inverse};
 use shagreen_device::synth::equalizer::Resonance;
+use shagreen_device::synth::height_map::{self, HeightMap};
 use shagreen_device::synth::relief::Relief;
-use shagreen_device::synth::texture::{MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
+use shagreen_device::synth::stick_slip::Friction;
+use shagreen_device::synth::texture::{Along, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Triangle};
 use shagreen_device::texture::OwnedTexture;
 
 /// An actuator that uses every stage of the output.
@@ -19,7 +22,12 @@ pub(crate) const DRIVE: DriveConfig = DriveConfig {
     budget: Some(Budget { rms: 0.3, time_secs: 5.0 }),
 };
 
-/// White noise whose level grows with speed, with a relief of waves of 0.64 mm along x.
+/// A display that renders friction, on the second channel.
+pub(crate) const FRICTION: FrictionConfig =
+    FrictionConfig { channel_idx: 1, wave: FrictionWave::Carrier { frequency_hz: 120.0 } };
+
+/// A rotated texture with every layer: noise whose level grows with speed and is three times as high along the lay, a
+/// relief of waves of 0.64 mm, a height map, and friction that sticks.
 pub(crate) fn texture(level_mps2: f32) -> OwnedTexture {
     let mut lsf = [0.0; MAX_ORDER];
     (lsf[0], lsf[1]) = (1.0, 2.0);
@@ -36,6 +44,11 @@ pub(crate) fn texture(level_mps2: f32) -> OwnedTexture {
         let value = |i: usize| (std::f32::consts::TAU * 16.0 * i as f32 / n as f32).sin();
         octaves.extend((0..n).map(|i| if n >= 64 { 0.3 * level_mps2 * value(i) } else { 0.0 }));
     }
+    let heights_m: Vec<f32> = (0..height_map::PATCH_FORCES.len() * height_map::length(16))
+        .map(|i| 1e-6 * level_mps2 * (1.7 * i as f32).sin())
+        .collect();
+    let level_along_mps2 = (3.0 * level_mps2).min(f32::MAX);
+    let along_nodes = [node(0.0), node(level_along_mps2), node(level_along_mps2)];
     let (nodes, triangles) = (&nodes, &[triangle]);
     OwnedTexture::new(Parts {
         rate_hz: 1000.0,
@@ -46,7 +59,11 @@ pub(crate) fn texture(level_mps2: f32) -> OwnedTexture {
         nodes,
         excitations: &[],
         triangles,
+        along: Some(Along { nodes: &along_nodes, triangles }),
+        turn_rad: 0.3,
         relief: Some(Relief::new(1e-5, 1.0, 1024, &octaves).unwrap()),
+        height_map: Some(HeightMap::new(0.01, 1.0, 2.0, 16, &heights_m).unwrap()),
+        friction: Some(Friction { kinetic: 0.5, static_ratio: 2.0, stribeck_speed_mps: 0.05 }),
     })
     .unwrap()
 }

@@ -6,10 +6,11 @@ use proptest::prelude::{Strategy, prop_assert, proptest};
 use shagreen_core::dsp::ar::{comparison_frequencies, psd, response};
 use shagreen_core::dsp::lsf::ar_from_lsf;
 use shagreen_core::maths::rng::Random;
+use shagreen_core::texture::stick_slip::StickSlip;
 use shagreen_core::texture::{GrainNode, Interpolation, PublishedNode, TextureModel};
 use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 
-use super::{HattError, HattTexture, read_hatt, write_hatt};
+use super::{HattError, HattTexture, lost_in_hatt, read_hatt, write_hatt};
 use crate::imported::Imported;
 use crate::library::{Provenance, TextureEntry};
 
@@ -344,6 +345,22 @@ proptest! {
         let text = file(&nodes(6, 4), Spelling::Values);
         prop_assert!(read_hatt(&text.as_bytes()[..text.len() - 1 - cut.min(text.len() - 2)]).is_err());
     }
+}
+
+#[test]
+fn a_directional_texture_keeps_its_grain_across_the_lay_and_the_rest_is_named() {
+    let model = measured(4, 7);
+    let along = model.nodes().iter().map(|n| GrainNode { level_mps2: 0.1, ..n.clone() }).collect();
+    let stick_slip = StickSlip { static_ratio: 1.5, stribeck_speed: MetersPerSecond(0.02) };
+    let layered = model.clone().with_along(Some(along)).unwrap();
+    let layered = layered.with_stick_slip(Some(stick_slip)).with_turn_rad(0.5);
+    let entry = |model: TextureModel| TextureEntry::new("a", "A", model);
+    let (layered, plain) = (entry(layered), entry(model));
+    assert_eq!(write_hatt(&layered, "test"), write_hatt(&plain, "test"));
+    let lost = lost_in_hatt(&layered).join("; ");
+    let named = ["the direction", "the rotation", "stick-slip friction"];
+    assert!(named.iter().all(|name| lost.contains(*name)), "{lost}");
+    assert_eq!(lost_in_hatt(&layered).len(), lost_in_hatt(&plain).len() + named.len());
 }
 
 #[test]

@@ -34,8 +34,8 @@ pub enum HattWriteError {
 /// A measured texture is converted to what the published renderer expects: a neutral moving average (`B(z) = 1`) two
 /// orders below the AR order, gain 1, the variance of the excitation, and the boundary models. Spectra and levels at
 /// the nodes stay the same. Between nodes the published renderer interpolates variances, whereas Shagreen interpolates
-/// levels. The format has no tap transients. The published renderer assumes 1000 Hz and at most 24 coefficients; rate
-/// and order are written unchanged.
+/// levels. The format has no tap transients, and no direction: the grain across the lay is written. The published
+/// renderer assumes 1000 Hz and at most 24 coefficients; rate and order are written unchanged.
 ///
 /// Coefficients have 20 decimals. Line spectral frequencies have 6, or more if two are close. Model numbers start at
 /// one.
@@ -88,8 +88,20 @@ pub fn lost_in_hatt(entry: &TextureEntry) -> Vec<String> {
     if entry.model.tap().is_some() {
         lost.push("the tap transient".to_owned());
     }
+    if entry.model.along().is_some() {
+        lost.push("the direction: only the grain across the lay is written".to_owned());
+    }
     if entry.model.relief().is_some() {
         lost.push("the relief (acceleration as a function of position)".to_owned());
+    }
+    if entry.model.height_map().is_some() {
+        lost.push("the height map".to_owned());
+    }
+    if entry.model.turn_rad() != 0.0 {
+        lost.push("the rotation on the pad".to_owned());
+    }
+    if entry.model.stick_slip().is_some() {
+        lost.push("stick-slip friction (static friction and Stribeck speed)".to_owned());
     }
     if entry.place.is_some() {
         lost.push("the position in the space".to_owned());

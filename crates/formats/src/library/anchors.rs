@@ -15,6 +15,10 @@ const BARYCENTRIC: &str = "barycentric";
 const RADIAL_BASIS: &str = "radial_basis";
 const PUBLISHED: &str = "published";
 
+/// Names of the lists of anchors, for messages.
+const ANCHORS: &str = "anchors";
+const ALONG: &str = "anchors_along";
+
 /// Nodes that are read but not validated.
 pub(super) struct UncheckedGrain(Grain);
 
@@ -51,41 +55,74 @@ pub(super) fn grain(
             });
         }
     };
+    if let Some(interpolation) = interpolation {
+        let nodes = measured(id, ANCHORS, anchors, unknown)?;
+        return Ok(UncheckedGrain(Grain::Measured { nodes, interpolation }));
+    }
+    let needed = |value, index, field| needed(value, id, ANCHORS, (index, field));
     let mut rest = Vec::with_capacity(anchors.len());
-    let needed = |value: Option<f64>, index: usize, field: &'static str| {
-        value.ok_or_else(|| LibraryError::Anchor { id: id.to_owned(), index, field })
-    };
-    let place =
-        |anchor: &AnchorV1| (MetersPerSecond::from_mm_per_s(anchor.speed_mm_per_s), Newtons(anchor.force_n));
-    let grain = if let Some(interpolation) = interpolation {
-        let mut nodes = Vec::with_capacity(anchors.len());
-        for (index, mut anchor) in anchors.into_iter().enumerate() {
-            let (speed, force) = place(&anchor);
-            let level_mps2 = needed(anchor.level_mps2.take(), index, "level_mps2")?;
-            nodes.push(GrainNode { speed, force, lsf: std::mem::take(&mut anchor.lsf), level_mps2 });
-            rest.push(without_meaning(anchor));
-        }
-        Grain::Measured { nodes, interpolation }
-    } else {
-        let mut nodes = Vec::with_capacity(anchors.len());
-        for (index, mut anchor) in anchors.into_iter().enumerate() {
-            let (speed, force) = place(&anchor);
-            nodes.push(PublishedNode {
-                speed,
-                force,
-                variance: needed(anchor.variance.take(), index, "variance")?,
-                gain: needed(anchor.gain.take(), index, "gain")?,
-                ar_lsf: std::mem::take(&mut anchor.lsf),
-                ma_lsf: anchor.ma_lsf.take().unwrap_or_default(),
-            });
-            rest.push(without_meaning(anchor));
-        }
-        Grain::Published { nodes }
-    };
+    let mut nodes = Vec::with_capacity(anchors.len());
+    for (index, mut anchor) in anchors.into_iter().enumerate() {
+        let (speed, force) = place(&anchor);
+        nodes.push(PublishedNode {
+            speed,
+            force,
+            variance: needed(anchor.variance.take(), index, "variance")?,
+            gain: needed(anchor.gain.take(), index, "gain")?,
+            ar_lsf: std::mem::take(&mut anchor.lsf),
+            ma_lsf: anchor.ma_lsf.take().unwrap_or_default(),
+        });
+        rest.push(without_meaning(anchor));
+    }
+    keep(rest, unknown);
+    Ok(UncheckedGrain(Grain::Published { nodes }))
+}
+
+/// Converts the anchors of the grain along the lay to nodes, which are not validated. `unknown` is that of [`grain`].
+pub(super) fn nodes_along(
+    id: &str,
+    anchors: Vec<AnchorV1>,
+    unknown: &mut Vec<Map<String, Value>>,
+) -> Result<Vec<GrainNode>, LibraryError> {
+    measured(id, ALONG, anchors, unknown)
+}
+
+fn measured(
+    id: &str,
+    list: &'static str,
+    anchors: Vec<AnchorV1>,
+    unknown: &mut Vec<Map<String, Value>>,
+) -> Result<Vec<GrainNode>, LibraryError> {
+    let mut rest = Vec::with_capacity(anchors.len());
+    let mut nodes = Vec::with_capacity(anchors.len());
+    for (index, mut anchor) in anchors.into_iter().enumerate() {
+        let (speed, force) = place(&anchor);
+        let level_mps2 = needed(anchor.level_mps2.take(), id, list, (index, "level_mps2"))?;
+        nodes.push(GrainNode { speed, force, lsf: std::mem::take(&mut anchor.lsf), level_mps2 });
+        rest.push(without_meaning(anchor));
+    }
+    keep(rest, unknown);
+    Ok(nodes)
+}
+
+fn place(anchor: &AnchorV1) -> (MetersPerSecond, Newtons) {
+    (MetersPerSecond::from_mm_per_s(anchor.speed_mm_per_s), Newtons(anchor.force_n))
+}
+
+fn needed(
+    value: Option<f64>,
+    id: &str,
+    list: &'static str,
+    (index, field): (usize, &'static str),
+) -> Result<f64, LibraryError> {
+    value.ok_or_else(|| LibraryError::Anchor { id: id.to_owned(), list, index, field })
+}
+
+/// Keeps the rest of all anchors, if there is any.
+fn keep(rest: Vec<Map<String, Value>>, unknown: &mut Vec<Map<String, Value>>) {
     if rest.iter().any(|fields| !fields.is_empty()) {
         *unknown = rest;
     }
-    Ok(UncheckedGrain(grain))
 }
 
 /// The rest of an anchor after its numbers are taken: unknown fields, and known ones that its interpolation mode does
@@ -111,12 +148,33 @@ pub(super) fn interpolation_word(model: &TextureModel) -> Option<&'static str> {
 
 /// Converts the nodes of a model to anchors, with the unknown fields of each.
 pub(super) fn anchors(model: &TextureModel, unknown: &[Map<String, Value>]) -> Vec<AnchorV1> {
-    // If nodes were added or removed, the unknown fields cannot be assigned to nodes and are dropped.
-    let unknown_at = |index: usize| match unknown.get(index) {
-        Some(fields) if unknown.len() == model.n_nodes() => Map::clone(fields),
-        _ => Map::new(),
+    match model.grain() {
+        Grain::Measured { nodes, .. } => anchors_of(nodes, unknown),
+        Grain::Published { nodes } => {
+            let anchor = |(index, node): (usize, &PublishedNode)| AnchorV1 {
+                variance: Some(digits(node.variance, DIGITS)),
+                gain: Some(digits(node.gain, DIGITS)),
+                ma_lsf: Some(frequencies(&node.ma_lsf)).filter(|lsf| !lsf.is_empty()),
+                unknown: unknown_at(index, nodes.len(), unknown),
+                ..bare(node.speed, node.force, &node.ar_lsf)
+            };
+            nodes.iter().enumerate().map(anchor).collect()
+        }
+    }
+}
+
+/// Converts measured nodes, across or along the lay, to anchors, with the unknown fields of each.
+pub(super) fn anchors_of(nodes: &[GrainNode], unknown: &[Map<String, Value>]) -> Vec<AnchorV1> {
+    let anchor = |(index, node): (usize, &GrainNode)| AnchorV1 {
+        level_mps2: Some(digits(node.level_mps2, DIGITS)),
+        unknown: unknown_at(index, nodes.len(), unknown),
+        ..bare(node.speed, node.force, &node.lsf)
     };
-    let bare = |index: usize, speed: MetersPerSecond, force: Newtons, lsf: &[f64]| AnchorV1 {
+    nodes.iter().enumerate().map(anchor).collect()
+}
+
+fn bare(speed: MetersPerSecond, force: Newtons, lsf: &[f64]) -> AnchorV1 {
+    AnchorV1 {
         speed_mm_per_s: digits(speed.mm_per_s(), CONVERSION_DIGITS),
         force_n: digits(force.0, CONVERSION_DIGITS),
         level_mps2: None,
@@ -124,24 +182,15 @@ pub(super) fn anchors(model: &TextureModel, unknown: &[Map<String, Value>]) -> V
         gain: None,
         lsf: frequencies(lsf),
         ma_lsf: None,
-        unknown: unknown_at(index),
-    };
-    match model.grain() {
-        Grain::Measured { nodes, .. } => {
-            let anchor = |(index, node): (usize, &GrainNode)| AnchorV1 {
-                level_mps2: Some(digits(node.level_mps2, DIGITS)),
-                ..bare(index, node.speed, node.force, &node.lsf)
-            };
-            nodes.iter().enumerate().map(anchor).collect()
-        }
-        Grain::Published { nodes } => {
-            let anchor = |(index, node): (usize, &PublishedNode)| AnchorV1 {
-                variance: Some(digits(node.variance, DIGITS)),
-                gain: Some(digits(node.gain, DIGITS)),
-                ma_lsf: Some(frequencies(&node.ma_lsf)).filter(|lsf| !lsf.is_empty()),
-                ..bare(index, node.speed, node.force, &node.ar_lsf)
-            };
-            nodes.iter().enumerate().map(anchor).collect()
-        }
+        unknown: Map::new(),
+    }
+}
+
+/// Unknown fields of one of `n` nodes. If nodes were added or removed, the unknown fields cannot be assigned to nodes
+/// and are dropped.
+fn unknown_at(index: usize, n: usize, unknown: &[Map<String, Value>]) -> Map<String, Value> {
+    match unknown.get(index) {
+        Some(fields) if unknown.len() == n => Map::clone(fields),
+        _ => Map::new(),
     }
 }

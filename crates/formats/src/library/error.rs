@@ -3,6 +3,7 @@
 use shagreen_core::space::SpacePointError;
 use shagreen_core::space::texture_path::TexturePathError;
 use shagreen_core::texture::TextureModelError;
+use shagreen_core::texture::stick_slip::StickSlipError;
 use shagreen_core::texture::tap::TapError;
 
 use crate::foreign_file::Found;
@@ -96,6 +97,14 @@ pub enum LibraryError {
         /// What is wrong.
         source: TextureModelError,
     },
+    /// The nodes of the grain along the lay are invalid.
+    #[error("the `anchors_along` of texture \"{id}\" is invalid: {source}; correct or remove it")]
+    Along {
+        /// Identifier of the texture.
+        id: String,
+        /// What is wrong.
+        source: TextureModelError,
+    },
     /// The position of a texture is outside the space.
     #[error("the position of texture \"{id}\" is invalid: {source}; correct or remove its `space`")]
     Place {
@@ -127,10 +136,12 @@ pub enum LibraryError {
         expected: &'static str,
     },
     /// An anchor lacks a number that the texture's interpolation mode needs.
-    #[error("entry {index} of `anchors` of texture \"{id}\" has no {field}; add it, or remove the texture")]
+    #[error("entry {index} of `{list}` of texture \"{id}\" has no {field}; add it, or remove the texture")]
     Anchor {
         /// Identifier of the texture.
         id: String,
+        /// Name of the list of anchors: `anchors` or `anchors_along`.
+        list: &'static str,
         /// Index of the anchor, from zero.
         index: usize,
         /// Name of the missing field.
@@ -143,6 +154,30 @@ pub enum LibraryError {
         id: String,
         /// Why it is invalid.
         reason: String,
+    },
+    /// A height map is invalid.
+    #[error("the `height_map` of texture \"{id}\" is invalid: {reason}; correct or remove it")]
+    HeightMap {
+        /// Identifier of the texture.
+        id: String,
+        /// Why it is invalid.
+        reason: String,
+    },
+    /// Parameters of stick-slip friction are invalid.
+    #[error("the `stick_slip` of texture \"{id}\" is invalid: {source}; correct or remove it")]
+    StickSlip {
+        /// Identifier of the texture.
+        id: String,
+        /// The invalid value.
+        source: StickSlipError,
+    },
+    /// A rotation is out of range.
+    #[error("texture \"{id}\" has the `turn_deg` {turn_deg}; it must be from -360 to 360 degrees")]
+    Turn {
+        /// Identifier of the texture.
+        id: String,
+        /// The rotation in the file, in degrees.
+        turn_deg: f64,
     },
     /// A text is too long.
     #[error(transparent)]
@@ -181,6 +216,17 @@ pub enum LibraryError {
         /// What is wrong.
         reason: String,
     },
+}
+
+impl LibraryError {
+    /// Error of the model of the texture with this identifier.
+    pub(super) fn of_model(id: &str, source: TextureModelError) -> Self {
+        let id = id.to_owned();
+        match source {
+            TextureModelError::InAlong(source) => Self::Along { id, source: *source },
+            source => Self::Model { id, source },
+        }
+    }
 }
 
 fn in_texture(texture: Option<&String>) -> String {

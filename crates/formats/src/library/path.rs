@@ -1,17 +1,14 @@
 //! Conversion of texture paths from and to the library format.
 
 use shagreen_core::space::SpacePoint;
-use shagreen_core::space::texture_path::{Along, AtEnd, Key, Stop, TexturePath};
+use shagreen_core::space::texture_path::{Along, AtEnd, Key, MAX_KEYS, Stop, TexturePath};
 use shagreen_core::units::Hertz;
 
-use crate::library::anchors::{anchors, grain};
+use crate::library::anchors::{anchors, anchors_of, grain, nodes_along};
 use crate::library::numbers::{CONVERSION_DIGITS, DIGITS, decimals, digits};
 use crate::library::v1::{KeyV1, PathV1, TapV1};
 use crate::library::{LibraryError, Unknown, UnknownOfKey};
-use crate::library::{relief, tap};
-
-/// Maximum number of textures along a path; the program writes up to 48.
-const MAX_KEYS: usize = 512;
+use crate::library::{height_map, relief, stick_slip, tap, turn};
 
 /// Converts and validates the path of a texture.
 pub(super) fn read(
@@ -30,6 +27,7 @@ pub(super) fn read(
         Along::from_id(&wire.along).ok_or_else(|| word("path.along", &wire.along, "distance or time"))?;
     let at_end = AtEnd::from_id(&wire.at_end)
         .ok_or_else(|| word("path.at_end", &wire.at_end, "hold, turn or repeat"))?;
+    // Before anything is decoded: a height map can take 2 MB, and eight times as much when it is played.
     if wire.keys.len() > MAX_KEYS {
         return Err(LibraryError::PathKeys { id: id.to_owned(), n: wire.keys.len(), most: MAX_KEYS });
     }
@@ -41,11 +39,21 @@ pub(super) fn read(
             .map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
         let tap = wire.tap.map(|wire| tap::read(id, wire, &mut left.tap)).transpose()?;
         let relief = wire.relief.map(|wire| relief::read(id, wire, &mut left.relief)).transpose()?;
+        let height_map =
+            wire.height_map.map(|wire| height_map::read(id, wire, &mut left.height_map)).transpose()?;
+        let stick_slip =
+            wire.stick_slip.map(|wire| stick_slip::read(id, wire, &mut left.stick_slip)).transpose()?;
+        let turn_rad = turn::read(id, wire.turn_deg)?;
+        let nodes = wire.anchors_along.map(|nodes| nodes_along(id, nodes, &mut left.along)).transpose()?;
         let model = grain(id, None, wire.anchors, &mut left.anchors)?
             .model(rate, wire.mu)
-            .map_err(|source| LibraryError::Model { id: id.to_owned(), source })?
+            .and_then(|model| model.with_along(nodes))
+            .map_err(|source| LibraryError::of_model(id, source))?
             .with_tap(tap)
-            .with_relief(relief);
+            .with_relief(relief)
+            .with_height_map(height_map)
+            .with_stick_slip(stick_slip)
+            .with_turn_rad(turn_rad);
         unknown.keys.push(left);
         Ok(Key { stop: Stop { at, along: along.unit().0 * wire.along }, is_stop: wire.stop, model })
     };
@@ -64,17 +72,21 @@ pub(super) fn write(path: &TexturePath, unknown: &Unknown) -> PathV1 {
         _ => UnknownOfKey::default(),
     };
     let key = |(index, key): (usize, &Key)| {
-        let UnknownOfKey { key: unknown, tap, relief: of_relief, anchors: of_anchors } = left_at(index);
+        let left = left_at(index);
         KeyV1 {
-            unknown,
+            unknown: left.key,
             along: digits(key.stop.along / path.along().unit().0, CONVERSION_DIGITS),
             rough_smooth: decimals(key.stop.at.rough_smooth),
             hard_soft: decimals(key.stop.at.hard_soft),
             stop: key.is_stop,
             mu: key.model.friction().map(|mu| digits(mu, DIGITS)),
-            tap: key.model.tap().map(|of| TapV1 { unknown: tap, ..tap::write(of) }),
-            anchors: anchors(&key.model, &of_anchors),
-            relief: key.model.relief().map(|of| relief::write(of, &of_relief)),
+            tap: key.model.tap().map(|of| TapV1 { unknown: left.tap, ..tap::write(of) }),
+            stick_slip: key.model.stick_slip().map(|of| stick_slip::write(of, &left.stick_slip)),
+            turn_deg: turn::write(key.model.turn_rad()),
+            anchors: anchors(&key.model, &left.anchors),
+            anchors_along: key.model.along().map(|nodes| anchors_of(nodes, &left.along)),
+            relief: key.model.relief().map(|of| relief::write(of, &left.relief)),
+            height_map: key.model.height_map().map(|of| height_map::write(of, &left.height_map)),
         }
     };
     PathV1 {

@@ -9,13 +9,13 @@ use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::units::Hertz;
 
 use crate::imported::Imported;
-use crate::library::anchors::grain;
+use crate::library::anchors::{grain, nodes_along};
 use crate::library::v1::{LibraryV1, PictureV1, RESTRICTED, SpaceV1, TextureV1, UNITS, UnitsV1};
 use crate::library::{
     FORMAT, Library, LibraryError, PhysicalLabels, Place, Provenance, TextureEntry, Unknown,
     UnknownOfLibrary, VERSION_MAJOR, VERSION_MINOR,
 };
-use crate::library::{attributes, path, relief, tap};
+use crate::library::{attributes, height_map, path, relief, stick_slip, tap, turn};
 use crate::own_json::{Header, HeaderFault, minor_version};
 use crate::parser_words::plain;
 use crate::picture::{self, MAX_SIDE, Picture, PictureFormat};
@@ -148,13 +148,23 @@ pub(crate) fn texture(wire: TextureV1) -> Result<TextureEntry, LibraryError> {
     let provenance = wire.provenance.map(|word| provenance(&id, word)).transpose()?.unwrap_or_default();
     let tap = wire.tap.map(|wire| tap::read(&id, wire, &mut unknown.tap)).transpose()?;
     let relief = wire.relief.map(|wire| relief::read(&id, wire, &mut unknown.relief)).transpose()?;
+    let height_map =
+        wire.height_map.map(|wire| height_map::read(&id, wire, &mut unknown.height_map)).transpose()?;
+    let stick_slip =
+        wire.stick_slip.map(|wire| stick_slip::read(&id, wire, &mut unknown.stick_slip)).transpose()?;
+    let turn_rad = turn::read(&id, wire.turn_deg)?;
+    let along = wire.anchors_along.map(|along| nodes_along(&id, along, &mut unknown.along)).transpose()?;
     let rate = Hertz(wire.rate_hz);
     let path = wire.path.map(|wire| path::read(&id, wire, rate, &mut unknown)).transpose()?;
     let model = grain(&id, wire.interpolation.as_deref(), wire.anchors, &mut unknown.anchors)?
         .model(rate, wire.mu)
-        .map_err(|source| LibraryError::Model { id: id.clone(), source })?
+        .and_then(|model| model.with_along(along))
+        .map_err(|source| LibraryError::of_model(&id, source))?
         .with_tap(tap)
-        .with_relief(relief);
+        .with_relief(relief)
+        .with_height_map(height_map)
+        .with_stick_slip(stick_slip)
+        .with_turn_rad(turn_rad);
     Ok(TextureEntry {
         id,
         name: wire.name,

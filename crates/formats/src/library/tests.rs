@@ -120,6 +120,26 @@ fn unknown_fields_of_a_path_survive() {
     assert_eq!(written["textures"][0]["path"], value["textures"][0]["path"]);
 }
 
+/// An output holds the textures of all keys at once, each with a height map of up to 512 by 512 heights.
+#[test]
+fn a_path_with_more_textures_than_an_output_holds_is_refused_before_they_are_decoded() {
+    let with = |n: usize| {
+        move |library: &mut Value| {
+            let texture = &mut library["textures"][0];
+            let mut key =
+                json!({"rough_smooth": 10.0, "hard_soft": 20.0, "stop": true, "anchors": texture["anchors"]});
+            key["height_map"] = json!({"side_mm": 20.0, "n": 512, "force_n": 1.0, "speed_exponent": 2.0, "patch_radius_mm": 0.2, "step_m": 1e-9, "base64": "damaged"});
+            let mut keys = vec![key; n];
+            for (index, key) in keys.iter_mut().enumerate() {
+                key["along"] = json!(index);
+            }
+            texture["path"] = json!({"along": "distance", "at_end": "turn", "keys": keys});
+        }
+    };
+    check_error(with(49), &["the path of texture \"cork\" has 49 textures, but at most 48 are possible"]);
+    check_error(with(48), &["cork, key 1 of its path", "base64"]);
+}
+
 #[test]
 fn a_tap_that_could_hurt_is_refused() {
     for (field, value, words) in [

@@ -1,4 +1,4 @@
-//! File format of a library, versions 1.0 to 1.6.
+//! File format of a library, versions 1.0 to 1.7.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -74,15 +74,27 @@ pub(crate) struct TextureV1 {
     /// Since 1.1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) tap: Option<TapV1>,
+    /// Since 1.7.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) stick_slip: Option<StickSlipV1>,
+    /// Since 1.7.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) turn_deg: Option<f64>,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
     pub(super) anchors: Vec<AnchorV1>,
+    /// Since 1.7.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) anchors_along: Option<Vec<AnchorV1>>,
     /// Since 1.4.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) path: Option<PathV1>,
     /// Since 1.5.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) relief: Option<ReliefV1>,
+    /// Since 1.7.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) height_map: Option<HeightMapV1>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) picture: Option<PictureV1>,
 }
@@ -107,12 +119,24 @@ pub(super) struct KeyV1 {
     pub(super) mu: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) tap: Option<TapV1>,
+    /// Since 1.7.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) stick_slip: Option<StickSlipV1>,
+    /// Since 1.7.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) turn_deg: Option<f64>,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
     pub(super) anchors: Vec<AnchorV1>,
+    /// Since 1.7.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) anchors_along: Option<Vec<AnchorV1>>,
     /// Since 1.5.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) relief: Option<ReliefV1>,
+    /// Since 1.7.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) height_map: Option<HeightMapV1>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -120,6 +144,28 @@ pub(super) struct ReliefV1 {
     pub(super) step_mm: f64,
     pub(super) force_n: f64,
     pub(super) mps2: Vec<f64>,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}
+
+/// A height map of `n` by `n` heights: integers of 16 bits, little endian, in steps of `step_m`, row by row.
+#[derive(Serialize, Deserialize)]
+pub(super) struct HeightMapV1 {
+    pub(super) side_mm: f64,
+    pub(super) n: usize,
+    pub(super) force_n: f64,
+    pub(super) speed_exponent: f64,
+    pub(super) patch_radius_mm: f64,
+    pub(super) step_m: f64,
+    pub(super) base64: String,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
+}
+
+#[derive(Serialize, Deserialize)]
+pub(super) struct StickSlipV1 {
+    pub(super) static_ratio: f64,
+    pub(super) stribeck_mm_per_s: f64,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
 }

@@ -5,21 +5,23 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::Map;
 use shagreen_core::space::LabelSource;
 use shagreen_core::space::texture_path::TexturePath;
-use shagreen_core::texture::Interpolation;
+use shagreen_core::texture::{Interpolation, TextureModel};
 
 use crate::layout;
-use crate::library::anchors::{anchors, interpolation_word};
+use crate::library::anchors::{anchors, anchors_of, interpolation_word};
 use crate::library::numbers::{CONVERSION_DIGITS, DIGITS, decimals, digits};
 use crate::library::v1::{
     LibraryV1, PhysicalV1, PictureV1, RESTRICTED, SpaceV1, TapV1, TextureV1, UNITS, UnitsV1,
 };
 use crate::library::{FORMAT, Library, Place, Provenance, TextureEntry, VERSION_MAJOR};
-use crate::library::{attributes, path, relief, tap};
+use crate::library::{attributes, height_map, path, relief, stick_slip, tap, turn};
 use crate::picture::Picture;
 /// Nesting depth up to which values get their own lines. Each anchor (in library, textures, texture, anchors) fills one
 /// line.
 const OPEN_DEPTH: usize = 4;
 
+/// The minor version that introduced grain along the lay, rotation, height maps and stick-slip friction.
+const WITH_DIRECTION: u32 = 7;
 /// The minor version that introduced estimated labels.
 const WITH_ESTIMATES: u32 = 6;
 /// The minor version that introduced reliefs.
@@ -89,9 +91,13 @@ pub(crate) fn texture(entry: &TextureEntry) -> TextureV1 {
         unknown: unknown.texture.clone(),
         interpolation: interpolation_word(&entry.model).map(str::to_owned),
         tap: entry.model.tap().map(|measured| TapV1 { unknown: unknown.tap.clone(), ..tap::write(measured) }),
+        stick_slip: entry.model.stick_slip().map(|of| stick_slip::write(of, &unknown.stick_slip)),
+        turn_deg: turn::write(entry.model.turn_rad()),
         anchors: anchors(&entry.model, &unknown.anchors),
+        anchors_along: entry.model.along().map(|nodes| anchors_of(nodes, &unknown.along)),
         path: entry.path.as_ref().map(|way| path::write(way, unknown)),
         relief: entry.model.relief().map(|of| relief::write(of, &unknown.relief)),
+        height_map: entry.model.height_map().map(|of| height_map::write(of, &unknown.height_map)),
         picture: entry
             .picture
             .as_ref()
@@ -121,9 +127,22 @@ pub(crate) fn picture(picture: &Picture) -> PictureV1 {
     }
 }
 
+/// Models of a texture: its own, and those of the keys of its path.
+fn models(entry: &TextureEntry) -> impl Iterator<Item = &TextureModel> {
+    let keys = entry.path.iter().flat_map(TexturePath::keys);
+    keys.map(|key| &key.model).chain([&entry.model])
+}
+
 /// Returns the lowest minor version that has all features of a library, so that older programs can read as much as
 /// possible.
 fn minor_version(library: &Library) -> u32 {
+    let has_direction = |model: &TextureModel| {
+        let has_layer = model.along().is_some() || model.height_map().is_some();
+        has_layer || model.stick_slip().is_some() || model.turn_rad() != 0.0
+    };
+    if library.textures.iter().any(|entry| models(entry).any(has_direction)) {
+        return WITH_DIRECTION;
+    }
     let is_estimated = |entry: &TextureEntry| {
         let sources = [entry.place.map(|place| place.source), entry.attributes.as_ref().map(|of| of.source)];
         sources.contains(&Some(LabelSource::Estimated))
@@ -131,11 +150,8 @@ fn minor_version(library: &Library) -> u32 {
     if library.textures.iter().any(is_estimated) {
         return WITH_ESTIMATES;
     }
-    let has_relief = |entry: &TextureEntry| {
-        let keys = entry.path.iter().flat_map(TexturePath::keys);
-        keys.map(|key| &key.model).chain([&entry.model]).any(|model| model.relief().is_some())
-    };
-    if library.textures.iter().any(has_relief) {
+    let has_relief = |model: &TextureModel| model.relief().is_some();
+    if library.textures.iter().any(|entry| models(entry).any(has_relief)) {
         return WITH_RELIEFS;
     }
     if library.textures.iter().any(|entry| entry.path.is_some()) {

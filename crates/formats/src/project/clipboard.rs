@@ -183,6 +183,7 @@ mod tests {
     use serde_json::{Value, json};
     use shagreen_core::space::SpacePoint;
     use shagreen_core::texture::blend::Mode;
+    use shagreen_core::texture::shape::Shape;
 
     use super::{CopiedTexture, CopiedTextureError, MAX_BYTES, read_copied_texture, write_copied_texture};
     use crate::project::{AuthoredTexture, BlendChoice};
@@ -196,6 +197,7 @@ mod tests {
                 tags: vec!["wood".to_owned()],
                 at: SpacePoint { rough_smooth: 100.0 / 3.0, hard_soft: 0.1 },
                 blend: BlendChoice { mode: Mode::Field, locked, ..BlendChoice::default() },
+                shape: Shape { grain: 1.3, softness: 0.5, ..Shape::default() },
                 ..AuthoredTexture::new(7, "Eiche, geölt")
             },
             library: "Starter library".to_owned(),
@@ -250,6 +252,7 @@ mod tests {
         for (change, part) in [
             (json!({"rough_smooth": 101.0}), "position"),
             (json!({"color": 8}), "color"),
+            (json!({"shape": {"relief": -1}}), "relief of the shape is -1"),
             (json!({"name": "a".repeat(5000)}), "characters"),
             (json!({"tags": ["a".repeat(5000)]}), "characters"),
         ] {

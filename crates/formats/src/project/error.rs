@@ -4,6 +4,7 @@ use std::io;
 use std::path::PathBuf;
 
 use shagreen_core::space::SpacePointError;
+use shagreen_core::texture::shape::ShapeError;
 
 use crate::foreign_file::Found;
 use crate::library::LibraryError;
@@ -151,6 +152,14 @@ pub enum ProjectError {
         value: f64,
         /// The permitted range.
         needs: &'static str,
+    },
+    /// A shape is invalid.
+    #[error("the shape of \"{name}\" is invalid: {source}")]
+    Shape {
+        /// Name of the authored texture.
+        name: String,
+        /// What is wrong.
+        source: ShapeError,
     },
     /// Two authored textures have the same key.
     #[error(

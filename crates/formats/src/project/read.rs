@@ -22,6 +22,7 @@ use crate::parser_words::plain;
 use crate::path_json;
 use crate::picture::Picture;
 use crate::placed_space::{PlacedSpace, PlacedTexture};
+use crate::project::shape;
 use crate::project::v1::{
     AuthoredV1, BlendV1, DrawnPathV1, PlacedSpaceV1, ProjectLibraryV1, ProjectV1, UnitsV1,
 };
@@ -283,6 +284,9 @@ pub(super) fn authored_texture(wire: AuthoredV1) -> Result<AuthoredTexture, Proj
             needs: "it must be 0 to 7",
         });
     }
+    let mut unknown = wire.unknown;
+    let shape = shape::read(wire.shape, &mut unknown)
+        .map_err(|source| ProjectError::Shape { name: name.clone(), source })?;
     Ok(AuthoredTexture {
         key: wire.key,
         color: wire.color,
@@ -290,9 +294,10 @@ pub(super) fn authored_texture(wire: AuthoredV1) -> Result<AuthoredTexture, Proj
         tags: wire.tags,
         at,
         blend: blend(&name, wire.blend)?,
+        shape,
         path: wire.path.map(|wire| drawn_path(&name, wire)).transpose()?,
         picture: wire.picture.map(|wire| own_picture(&name, wire)).transpose()?,
-        unknown: wire.unknown,
+        unknown,
         name,
     })
 }

@@ -9,6 +9,7 @@ use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::space::texture_path::{Along, AtEnd};
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::shape::Shape;
 
 use super::{
     AuthoredTexture, BlendChoice, LibraryFile, Project, ProjectError, ProjectLibrary, read_project,
@@ -51,6 +52,7 @@ fn full() -> Project {
         tags: vec!["wood".to_owned()],
         at: at(100.0 / 7.0, 33.3),
         blend,
+        shape: Shape { level_db: -10.0 / 3.0, direction_deg: 45.0, ..Shape::default() },
         path: Some(path),
         picture: library.textures[3].picture.clone().map(Arc::new),
         ..AuthoredTexture::new(7, "Oak \"copy\"")
@@ -128,6 +130,47 @@ fn every_version_opens() {
     assert_eq!(written["of_a_later_version"], json!({ "kept": [1, 2, 3] }));
 }
 
+/// A shape has only the values that are not neutral, and a project without shapes has the version that older programs
+/// read completely.
+#[test]
+fn shapes_are_read_and_written() {
+    let bytes = include_bytes!("../../../../vectors/project/1.1.shagreen");
+    let read = read_project(bytes, Path::new("/somewhere"), &nothing).unwrap();
+    assert_eq!(read.warnings, Vec::<String>::new());
+    let mut project = read.value;
+    let all = Shape {
+        level_db: -4.5,
+        grain: 0.8,
+        brightness_db_per_octave: 1.25,
+        softness: 2.0,
+        friction: 0.0,
+        relief: 1.5,
+        direction_deg: -45.0,
+    };
+    let expected = [all, Shape { grain: 2.0, ..Shape::default() }, Shape::default()];
+    let shapes: Vec<Shape> = project.authored.iter().map(|texture| texture.shape).collect();
+    assert_eq!(shapes, expected);
+    assert_eq!(project.snapshots[0].shape, Shape { direction_deg: 90.0, ..Shape::default() });
+    assert_eq!(back(&project), project);
+    let wire = |project: &Project| -> Value {
+        serde_json::from_slice(&write_project(project, Path::new("/somewhere"), BY)).unwrap()
+    };
+    let written = wire(&project);
+    assert_eq!(written["version"], "1.1");
+    assert_eq!(written["authored"][0]["shape"]["of_a_later_version"], json!({ "kept": true }));
+    assert_eq!(written["authored"][1]["shape"], json!({ "grain": 2.0 }));
+    assert_eq!(written["authored"][2].get("shape"), None);
+    project.snapshots.clear();
+    for texture in &mut project.authored {
+        Arc::make_mut(texture).shape = Shape::default();
+    }
+    // What a later version knows of the shape is kept.
+    assert_eq!(wire(&project)["version"], "1.1");
+    project.authored.remove(0);
+    let plain = wire(&project);
+    assert_eq!((&plain["version"], plain["authored"][0].get("shape")), (&json!("1.0"), None));
+}
+
 /// A project and the library in its folder may be moved together; a changed library raises a warning.
 #[test]
 fn a_library_beside_the_project_is_found_where_both_went() {
@@ -197,7 +240,7 @@ type Fault = (&'static str, fn(&mut Value));
 
 #[test]
 fn each_fault_is_named() {
-    let faults: [Fault; 17] = [
+    let faults: [Fault; 20] = [
         ("not a project", |wire| wire["format"] = json!("shagreen-library")),
         ("version 2.0", |wire| wire["version"] = json!("2.0")),
         ("version \"one\"", |wire| wire["version"] = json!("one")),
@@ -211,6 +254,13 @@ fn each_fault_is_named() {
         ("blend.mode \"x\"", |wire| wire["authored"][1]["blend"]["mode"] = json!("x")),
         ("blend.weights \"x\"", |wire| wire["authored"][1]["blend"]["weights"] = json!("x")),
         ("blend.outside \"x\"", |wire| wire["authored"][1]["blend"]["outside"] = json!("x")),
+        ("the shape of \"Oak \"copy\"\" is invalid: level of the shape is 99", |wire| {
+            wire["authored"][1]["shape"]["level_db"] = json!(99);
+        }),
+        ("softness of the shape is 0; it must be from 0.25 to 4", |wire| {
+            wire["snapshots"][0]["shape"] = json!({"softness": 0});
+        }),
+        ("damaged", |wire| wire["authored"][0]["shape"] = json!({"grain": "coarse"})),
         ("color 8", |wire| wire["authored"][0]["color"] = json!(8)),
         ("same key 7", |wire| wire["authored"][0]["key"] = json!(7)),
         ("length_mm 0", |wire| wire["authored"][1]["path"]["length_mm"] = json!(0)),
@@ -236,7 +286,7 @@ fn what_a_newer_program_wrote_is_kept() {
         wire["authored"][1]["mood"] = json!("calm");
     })
     .unwrap();
-    assert!(warnings[0].contains("newer than 1.0"), "{warnings:?}");
+    assert!(warnings[0].contains("newer than 1.1"), "{warnings:?}");
     let wire: Value = serde_json::from_slice(&write_project(&project, Path::new("/"), BY)).unwrap();
     assert_eq!((&wire["moods"][0], &wire["authored"][1]["mood"]), (&json!("calm"), &json!("calm")));
 }

@@ -1,4 +1,4 @@
-//! File format of a project, version 1.0.
+//! File format of a project, version 1.1.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -73,6 +73,8 @@ pub(super) struct AuthoredV1 {
     pub(super) rough_smooth: f64,
     pub(super) hard_soft: f64,
     pub(super) blend: BlendV1,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) shape: Option<ShapeV1>,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -88,6 +90,27 @@ pub(super) struct BlendV1 {
     pub(super) outside: String,
     #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
     pub(super) locked: BTreeSet<String>,
+}
+
+/// Values that are not neutral.
+#[derive(Serialize, Deserialize)]
+pub(super) struct ShapeV1 {
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) level_db: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) grain: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) brightness_db_per_octave: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) softness: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) friction: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) relief: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) direction_deg: Option<f64>,
+    #[serde(flatten)]
+    pub(super) unknown: Map<String, Value>,
 }
 
 #[derive(Serialize, Deserialize)]

@@ -13,11 +13,12 @@ use crate::library::write::{picture, place, texture, wire as library_wire};
 use crate::library::{Unknown, attributes};
 use crate::path_json;
 use crate::placed_space::{PlacedSpace, PlacedTexture};
+use crate::project::shape;
 use crate::project::v1::{
     AuthoredV1, BlendV1, DrawnPathV1, PlacedSpaceV1, PlacedTextureV1, ProjectLibraryV1, ProjectV1, UnitsV1,
 };
 use crate::project::{
-    AuthoredTexture, BlendChoice, FORMAT, LibraryFile, Project, ProjectLibrary, VERSION_MAJOR, VERSION_MINOR,
+    AuthoredTexture, BlendChoice, FORMAT, LibraryFile, Project, ProjectLibrary, VERSION_MAJOR,
 };
 
 /// Quantities of the format and their units, in the order of [`UnitsV1`].
@@ -28,6 +29,9 @@ pub(super) const WEIGHTS: [(Weights, &str); 2] =
 /// Identifiers of the behaviors outside the convex hull.
 pub(super) const OUTSIDES: [(Outside, &str); 2] =
     [(Outside::Clamped, "clamped"), (Outside::Extrapolated, "extrapolated")];
+
+/// The minor version that introduced shapes.
+const WITH_SHAPES: u32 = 1;
 
 /// Nesting depth up to which values get their own lines. Each anchor of an embedded library (in project, library,
 /// library, textures, texture, anchors) fills one line.
@@ -40,7 +44,7 @@ pub fn write_project(project: &Project, folder: &Path, created_by: &str) -> Vec<
     let [length, time] = UNITS.map(|(_, unit)| unit.to_owned());
     let wire = ProjectV1 {
         format: FORMAT.to_owned(),
-        version: format!("{VERSION_MAJOR}.{VERSION_MINOR}"),
+        version: format!("{VERSION_MAJOR}.{}", minor_version(project)),
         units: UnitsV1 { length, time, unknown: Map::new() },
         created_by: created_by.to_owned(),
         notes: project.notes.clone(),
@@ -57,6 +61,13 @@ pub fn write_project(project: &Project, folder: &Path, created_by: &str) -> Vec<
         library: library(&project.library, folder),
     };
     layout::to_bytes(&wire, OPEN_DEPTH)
+}
+
+/// Returns the lowest minor version that has all features of a project, so that older programs can read as much as
+/// possible.
+fn minor_version(project: &Project) -> u32 {
+    let mut textures = project.authored.iter().chain(&project.snapshots);
+    if textures.any(|texture| shape::is_needed(texture)) { WITH_SHAPES } else { 0 }
 }
 
 fn library(library: &ProjectLibrary, folder: &Path) -> ProjectLibraryV1 {
@@ -105,6 +116,8 @@ fn placed_space(space: &PlacedSpace) -> PlacedSpaceV1 {
 }
 
 pub(super) fn authored(texture: &AuthoredTexture) -> AuthoredV1 {
+    let mut unknown = texture.unknown.clone();
+    let shape = shape::write(&texture.shape, &mut unknown);
     AuthoredV1 {
         key: texture.key,
         name: texture.name.clone(),
@@ -114,7 +127,8 @@ pub(super) fn authored(texture: &AuthoredTexture) -> AuthoredV1 {
         rough_smooth: texture.at.rough_smooth,
         hard_soft: texture.at.hard_soft,
         blend: blend(&texture.blend),
-        unknown: texture.unknown.clone(),
+        shape,
+        unknown,
         path: texture.path.as_ref().map(|path| DrawnPathV1 {
             along: path.along.id().to_owned(),
             at_end: path.at_end.id().to_owned(),

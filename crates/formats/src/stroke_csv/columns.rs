@@ -26,6 +26,8 @@ pub(super) struct Columns {
     pub(super) time: usize,
     pub(super) time_unit: Option<TimeUnit>,
     pub(super) touching: Option<usize>,
+    /// Speed towards the surface.
+    pub(super) speed_normal: Option<usize>,
     /// Whether no acceleration recording has columns of these names.
     pub(super) are_of_a_stroke_only: bool,
     /// Indices of speed and force, or of x, y and pressure or force.
@@ -39,6 +41,7 @@ enum Name {
     X,
     Y,
     Speed,
+    SpeedNormal,
     Force,
     Pressure,
     Touching,
@@ -72,7 +75,7 @@ impl Columns {
                 ),
             }
         };
-        let touching = place(Name::Touching);
+        let (touching, speed_normal) = (place(Name::Touching), place(Name::SpeedNormal));
         // Without a unit, x and y may be axes of acceleration.
         let is_axis = |(field, (name, _)): (&str, &(Name, _))| {
             matches!(name, Name::X | Name::Y) && !field.to_lowercase().contains("mm")
@@ -84,7 +87,11 @@ impl Columns {
             time,
             time_unit: names[time].1,
             touching,
-            are_of_a_stroke_only: !has_axes || touching.is_some() || place(Name::Pressure).is_some(),
+            speed_normal,
+            are_of_a_stroke_only: !has_axes
+                || touching.is_some()
+                || speed_normal.is_some()
+                || place(Name::Pressure).is_some(),
             values,
         })
     }
@@ -99,7 +106,16 @@ impl Columns {
                 return Err(StrokeCsvError::Header { problem });
             }
         };
-        Ok(Self { n, kind, time: 0, time_unit: None, touching: None, are_of_a_stroke_only: false, values })
+        Ok(Self {
+            n,
+            kind,
+            time: 0,
+            time_unit: None,
+            touching: None,
+            speed_normal: None,
+            are_of_a_stroke_only: false,
+            values,
+        })
     }
 
     /// Names and indices of the values in a row, without its time.
@@ -121,29 +137,30 @@ impl Columns {
     }
 }
 
-/// Parses a column name such as `t`, `Time (ms)`, `x_mm` or `force_n`.
+/// Parses a column name such as `t`, `Time (ms)`, `x_mm`, `force_n` or `speed_normal`.
 fn name_of(field: &str) -> Option<(Name, Option<TimeUnit>)> {
     let lower = field.to_lowercase();
-    let mut words = lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
-    let name = match words.next()? {
-        "t" | "time" | "timestamp" => Name::Time,
-        "x" => Name::X,
-        "y" => Name::Y,
-        "v" | "speed" | "velocity" => Name::Speed,
-        "f" | "force" => Name::Force,
-        "p" | "pressure" => Name::Pressure,
-        "touching" | "touch" | "tip" | "on" => Name::Touching,
+    let words: Vec<&str> =
+        lower.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let (name, units) = match words.as_slice() {
+        ["t" | "time" | "timestamp", units @ ..] => (Name::Time, units),
+        ["x", units @ ..] => (Name::X, units),
+        ["y", units @ ..] => (Name::Y, units),
+        ["v" | "speed" | "velocity", "normal", units @ ..] => (Name::SpeedNormal, units),
+        ["v" | "speed" | "velocity", units @ ..] => (Name::Speed, units),
+        ["f" | "force", units @ ..] => (Name::Force, units),
+        ["p" | "pressure", units @ ..] => (Name::Pressure, units),
+        ["touching" | "touch" | "tip" | "on", units @ ..] => (Name::Touching, units),
         _ => return None,
     };
     // An unsupported unit is rejected, because it would cause a silent scaling error.
-    let units: Vec<&str> = words.collect();
     let unit = units.concat();
     match (name, unit.as_str()) {
         (Name::Time, "s" | "sec" | "secs" | "seconds") => Some((name, Some(TimeUnit::Seconds))),
         (Name::Time, "ms" | "msec" | "milliseconds") => Some((name, Some(TimeUnit::Milliseconds))),
         (Name::Touching, "surface")
         | (Name::X | Name::Y, "mm")
-        | (Name::Speed, "mms" | "mmpers")
+        | (Name::Speed | Name::SpeedNormal, "mms" | "mmpers")
         | (Name::Force, "n")
         | (_, "") => Some((name, None)),
         _ => None,

@@ -18,7 +18,8 @@ fn check_error(text: &str, words: &str) {
 #[test]
 fn the_same_stroke_in_every_dialect() {
     let expected = contacts("t_s,speed,force\n0,50,0.5\n0.5,100,1\n");
-    assert_eq!(expected[1], TimedContact { time_secs: 0.5, speed_mps: 0.1, force_n: 1.0 });
+    let second = TimedContact { time_secs: 0.5, speed_mps: 0.1, force_n: 1.0, impact_mps: None };
+    assert_eq!(expected[1], second);
     for text in [
         "0,50,0.5\n0.5,100,1",
         "\u{feff}Time (ms); Speed (mm/s); Force (N)\r\n0;50;0,5\r\n500;100;1\r\n",
@@ -62,6 +63,22 @@ fn pen_positions_with_pressure_or_force() {
 }
 
 #[test]
+fn impact_speeds_are_read_where_they_are_stated() {
+    for header in ["t_s,speed,force,speed_normal", "t_s,v_mm_s,f_n,Velocity normal (mm/s)"] {
+        let impacts = |rows: &str| -> Vec<Option<f64>> {
+            contacts(&format!("{header}\n{rows}")).iter().map(|contact| contact.impact_mps).collect()
+        };
+        assert_eq!(impacts("0,0,0,200\n0.1,0,1,\n0.2,50,1,0\n"), [Some(0.2), None, Some(0.0)], "{header}");
+    }
+    let Stroke::Pen { samples, .. } =
+        read_stroke_csv(b"t_s,x,y,force,speed_normal\n0,1,2,0,\n0.01,1,2,1,50\n").unwrap().value
+    else {
+        panic!("not a pen stroke")
+    };
+    assert_eq!((samples[0].impact_mps, samples[1].impact_mps), (None, Some(0.05)));
+}
+
+#[test]
 fn what_was_assumed_is_said() {
     let warnings = |text: &str| read_stroke_csv(text.as_bytes()).unwrap().warnings;
     assert!(warnings("t_s,speed,force\n0,50,1\n").is_empty());
@@ -82,6 +99,9 @@ fn damage_is_named_with_its_line() {
     check_error("NaN,50,1\n", "time in line 1 is \"NaN\"");
     check_error("t,speed,force\n0,50,inf\n", "force in line 2");
     check_error("t,speed,force\n0,-50,1\n", "speed in line 2 is -50");
+    check_error("t,speed,force,speed_normal\n0,50,1,-1\n", "speed_normal in line 2 is -1");
+    check_error("t,speed,force,speed_normal\n0,50,1,fast\n", "speed_normal in line 2 is \"fast\"");
+    check_error("t,speed_tangential,force\n0,50,1\n", "speed_tangential");
     check_error("t,x,y,pressure\n0,1,1,512\n", "must be 0 to 1");
     check_error("t,speed,force\n1,50,1\n1,50,1\n", "line 3");
     let back = read_stroke_csv(b"t,speed,force\n1,50,1\n0,50,1\n").unwrap_err();
@@ -112,6 +132,7 @@ fn what_is_written_is_read_again() {
                 y_m: -0.001 * f64::from(i),
                 press: if i % 50 < 5 { 0.0 } else { 0.5 + 0.002 * f64::from(i % 100) },
                 touching: i % 50 >= 5,
+                impact_mps: (i % 50 == 5).then_some(0.125),
             })
             .collect();
         let read = read_stroke_csv(stroke_csv(&samples, press_unit).as_bytes()).unwrap();
@@ -123,13 +144,15 @@ fn what_is_written_is_read_again() {
             // The conversion multiplies by 1e3 and by 1e-3.
             assert!((a.x_m - b.x_m).abs() < 1e-16 && (a.y_m - b.y_m).abs() < 1e-16);
             assert_eq!((a.time_secs, a.press, a.touching), (b.time_secs, b.press, b.touching));
+            assert_eq!(a.impact_mps, b.impact_mps);
         }
     }
 }
 
 #[test]
 fn of_samples_at_one_time_the_last_is_written() {
-    let sample = |time_secs, x_m| PenSample { time_secs, x_m, y_m: 0.0, press: 1.0, touching: true };
+    let sample =
+        |time_secs, x_m| PenSample { time_secs, x_m, y_m: 0.0, press: 1.0, touching: true, impact_mps: None };
     let text = stroke_csv(&[sample(5.0, 0.001), sample(5.0, 0.002), sample(5.5, 0.003)], PressUnit::Newtons);
     assert_eq!(text, "t_s,x_mm,y_mm,force_n,touching\n0,2,0,1,1\n0.5,3,0,1,1\n");
 }
@@ -143,6 +166,7 @@ fn a_stroke_is_told_by_its_header_where_no_recording_has_the_same() {
         "sep=;\nt;speed;force\n",
         "t,v,f",
         "t,x,y,force,touching",
+        "t,x,y,force,speed_normal",
     ] {
         assert!(is_stroke_table(stroke.as_bytes()), "{stroke}");
     }
@@ -159,7 +183,8 @@ fn a_stroke_is_told_by_its_header_where_no_recording_has_the_same() {
     ] {
         assert!(!is_stroke_table(other.as_bytes()), "{other}");
     }
-    let sample = PenSample { time_secs: 0.0, x_m: 0.0, y_m: 0.0, press: 0.5, touching: true };
+    let sample =
+        PenSample { time_secs: 0.0, x_m: 0.0, y_m: 0.0, press: 0.5, touching: true, impact_mps: None };
     for unit in [PressUnit::Newtons, PressUnit::FullScale] {
         assert!(is_stroke_table(stroke_csv(&[sample], unit).as_bytes()));
     }

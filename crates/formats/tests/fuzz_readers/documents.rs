@@ -3,6 +3,7 @@
 use std::io::ErrorKind;
 use std::path::Path;
 
+use shagreen_core::texture::shape::Shape;
 use shagreen_formats::actuator_toml::{built_in_actuators, read_actuator, write_actuator};
 use shagreen_formats::gallery::{GALLERY, GalleryProject};
 use shagreen_formats::hid_text::read_hid_text;
@@ -21,6 +22,10 @@ pub(crate) fn project_seeds() -> Vec<Vec<u8>> {
     let bytes = |project: &GalleryProject| {
         let mut project = project.read().unwrap();
         project.snapshots = project.authored.clone();
+        for texture in &mut project.authored {
+            let shape = Shape { level_db: -3.0, grain: 1.5, direction_deg: 30.0, ..texture.shape };
+            std::sync::Arc::make_mut(texture).shape = shape;
+        }
         project.renamed.insert("cork".to_owned(), "Cork, sanded".to_owned());
         write_project(&project, Path::new("/folder"), "fuzz")
     };

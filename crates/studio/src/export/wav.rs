@@ -2,6 +2,7 @@
 
 use shagreen_core::texture::tap::Tap;
 use shagreen_core::units::Hertz;
+use shagreen_device::synth::tap::HIGHEST_SHARE;
 use shagreen_formats::library::TextureEntry;
 
 use super::FormatInfo;
@@ -34,13 +35,22 @@ pub fn lost_in_wav(rendered: Rendered<'_>) -> Vec<String> {
     if let Some(tap) = tap {
         if !follows_stroke {
             lost.push("the tap transient: no contact begins in a steady motion".to_owned());
-        } else if 2.0 * tap.frequency.0 >= rate.0 {
-            let reason = "its frequency is above half the sample rate, choose a higher one";
-            lost.push(format!("the tap transient: {reason}"));
+        } else if tap.frequency.0 > HIGHEST_SHARE * rate.0 {
+            let (frequency_hz, highest_hz) = (tap.frequency.0, HIGHEST_SHARE * rate.0);
+            lost.push(format!(
+                "the frequency of the tap transient: {frequency_hz:.0} Hz is above what this sample rate can hold, so the transient has {highest_hz:.0} Hz; choose a higher rate"
+            ));
         }
     }
-    if texture.is_some_and(|texture| texture.model.friction().is_some()) {
+    let model = texture.map(|texture| &texture.model);
+    if model.is_some_and(|model| model.along().is_some() || model.height_map().is_some()) {
+        lost.push("all stroke directions except those of this stroke".to_owned());
+    }
+    if model.is_some_and(|model| model.friction().is_some()) {
         lost.push("the friction coefficient".to_owned());
+    }
+    if model.is_some_and(|model| model.stick_slip().is_some()) {
+        lost.push("static friction and Stribeck speed, except for the vibration that they cause".to_owned());
     }
     if texture.is_some_and(|texture| texture.picture.is_some()) {
         lost.push("the picture".to_owned());
@@ -51,7 +61,9 @@ pub fn lost_in_wav(rendered: Rendered<'_>) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::{Rendered, Tap, lost_in_wav};
-    use shagreen_core::units::Hertz;
+    use shagreen_core::texture::stick_slip::StickSlip;
+    use shagreen_core::units::{Hertz, MetersPerSecond};
+    use shagreen_formats::library::TextureEntry;
     use shagreen_formats::starter::starter_library;
 
     #[test]
@@ -65,9 +77,24 @@ mod tests {
         assert!(lost(None, None, false, 1000.0).starts_with("all tip speeds and normal forces"));
         assert!(lost(None, tap, false, 1000.0).contains("no contact begins"));
         assert!(!lost(None, tap, true, 1000.0).contains("tap transient"), "a recorded stroke has contacts");
-        assert!(lost(None, tap, true, 300.0).contains("above half the sample rate"));
+        assert!(lost(None, tap, true, 300.0).contains("so the transient has 120 Hz"));
         let of_texture = lost(Some(texture), None, false, 1000.0);
         assert!(of_texture.contains("the picture"));
         assert_eq!(of_texture.contains("friction"), texture.model.friction().is_some());
+    }
+
+    #[test]
+    fn a_signal_of_a_directional_texture_loses_the_other_directions() {
+        let mut texture = starter_library().unwrap().textures.swap_remove(0);
+        let lost = |texture: &TextureEntry| {
+            let texture = Some(texture);
+            lost_in_wav(Rendered { texture, tap: None, rate: Hertz(1000.0), follows_stroke: true }).join("; ")
+        };
+        let stick_slip = StickSlip { static_ratio: 1.5, stribeck_speed: MetersPerSecond(0.02) };
+        texture.model = texture.model.with_along(None).unwrap().with_height_map(None).with_stick_slip(None);
+        assert!(!lost(&texture).contains("directions") && !lost(&texture).contains("Stribeck"));
+        let along = texture.model.nodes().to_vec();
+        texture.model = texture.model.with_along(Some(along)).unwrap().with_stick_slip(Some(stick_slip));
+        assert!(lost(&texture).contains("directions") && lost(&texture).contains("Stribeck"));
     }
 }

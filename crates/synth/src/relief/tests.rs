@@ -36,7 +36,7 @@ fn played(relief: &Relief<'_>, touches: impl IntoIterator<Item = (f64, f32)>) ->
     let mut passage = Passage::default();
     let mut out = Vec::new();
     for (place_m, force_n) in touches {
-        passage = passage.on(Place { x_m: place_m, n_jumps: 0 }, force_n);
+        passage = passage.on(Place { x_m: place_m, ..Place::default() }, force_n);
         let mut tick = [0.0; TICK];
         voice.add_tick(relief, &passage, (1.0, 1.0), &mut tick);
         out.extend(tick);
@@ -98,9 +98,9 @@ fn what_is_too_fast_for_the_rate_is_left_out() {
         let mut out = Vec::new();
         for ((place, force), n_jumps) in places.zip(0..) {
             // Every tick is a jump, so only the displacement within the tick counts.
-            let begun = Passage::default().on(Place { x_m: place, n_jumps }, force);
+            let begun = Passage::default().on(Place { x_m: place, y_m: 0.0, n_jumps }, force);
             let end = place + hz * length_m * TICK as f64 / f64::from(RATE_HZ);
-            let passage = Passage { places_m: (place, end), ..begun };
+            let passage = Passage { x_m: (place, end), ..begun };
             let mut tick = [0.0; TICK];
             voice.add_tick(&relief(&once), &passage, (1.0, 1.0), &mut tick);
             out.extend(tick);
@@ -150,17 +150,20 @@ fn jumps_and_landings_are_silent() {
     let mut x_m = 0.0;
     for _ in 0..100 {
         x_m += 0.01;
-        heard(Place { x_m, n_jumps: 0 }, 1.0);
+        heard(Place { x_m, ..Place::default() }, 1.0);
     }
-    heard(Place { x_m, n_jumps: 0 }, 0.0);
+    heard(Place { x_m, ..Place::default() }, 0.0);
     for _ in 0..20 {
-        assert!(heard(Place { x_m: 0.003_1, n_jumps: 0 }, 1.0) < 1e-6);
+        assert!(heard(Place { x_m: 0.003_1, ..Place::default() }, 1.0) < 1e-6);
     }
     for n_jumps in 1..20 {
         let x_m = 0.001_3 * f64::from(n_jumps);
-        assert!(heard(Place { x_m, n_jumps }, 1.0) < 1e-6, "a jump gives output");
+        assert!(heard(Place { x_m, y_m: 0.0, n_jumps }, 1.0) < 1e-6, "a jump gives output");
     }
-    assert!(heard(Place { x_m: 0.0258, n_jumps: 19 }, 1.0) > 1e-3, "a displacement gives no output");
+    assert!(
+        heard(Place { x_m: 0.0258, y_m: 0.0, n_jumps: 19 }, 1.0) > 1e-3,
+        "a displacement gives no output"
+    );
 }
 
 #[test]
@@ -177,7 +180,7 @@ fn force_and_weight_scale_it() {
     let mut voice = ReliefVoice::new(RATE_HZ);
     let mut passage = Passage::default();
     for (i, (place, force)) in at_speed(0.05, 200).enumerate() {
-        passage = passage.on(Place { x_m: place, n_jumps: 0 }, force);
+        passage = passage.on(Place { x_m: place, ..Place::default() }, force);
         let mut tick = [1.0; TICK];
         voice.add_tick(&relief, &passage, (0.5, 0.5), &mut tick);
         for (x, once) in tick.iter().zip(&once[i * TICK..]) {
@@ -211,4 +214,45 @@ fn slices_that_do_not_fit_are_refused() {
     // Unchecked data give silence at worst.
     let relief = Relief::checked_before(STEP_M, 1.0, 1000, &[]);
     assert!(played(&relief, at_speed(0.1, 10)).iter().all(|x| *x == 0.0));
+}
+
+#[test]
+fn far_is_measured_in_the_plane() {
+    let is_elsewhere = |x_m: f64, y_m: f64| {
+        let begun = Passage::default().on(Place { x_m: 0.1, y_m: 0.2, n_jumps: 0 }, 1.0);
+        begun.on(Place { x_m: 0.1 + x_m, y_m: 0.2 + y_m, n_jumps: 0 }, 1.0).is_elsewhere
+    };
+    assert!(!is_elsewhere(0.010, 0.010) && !is_elsewhere(0.0, -0.014));
+    assert!(is_elsewhere(0.012, 0.012) && is_elsewhere(0.0, 0.016) && is_elsewhere(-0.016, 0.0));
+    // A coordinate that is not finite stays.
+    let begun = Passage::default().on(Place { x_m: 0.1, y_m: 0.2, n_jumps: 0 }, 1.0);
+    let lost = begun.on(Place { x_m: 0.101, y_m: f64::NAN, n_jumps: 0 }, 1.0);
+    assert_eq!((lost.x_m, lost.y_m), ((0.1, 0.101), (0.2, 0.2)));
+}
+
+/// A wave at an angle on the pad: a stroke along that angle sounds as one along x does without a rotation, and a stroke at
+/// a right angle to it is silent.
+#[test]
+fn a_turned_relief_is_played_across_its_waves() {
+    let octaves = wave(16);
+    let relief = relief(&octaves);
+    let straight = played(&relief, at_speed(0.05, 400));
+    let (sin, cos) = 0.6_f64.sin_cos();
+    let stroked = |direction: [f64; 2]| {
+        let (mut voice, mut passage, mut out) = (ReliefVoice::new(RATE_HZ), Passage::default(), Vec::new());
+        for (way_m, force_n) in at_speed(0.05, 400) {
+            let place = Place { x_m: way_m * direction[0], y_m: way_m * direction[1], n_jumps: 0 };
+            passage = passage.on(place, force_n);
+            let mut tick = [0.0; TICK];
+            let turned = passage.turned((cos as f32, sin as f32));
+            voice.add_tick(&relief, &turned, (1.0, 1.0), &mut tick);
+            out.extend(tick);
+        }
+        out
+    };
+    // A rotation in `f32` displaces the end of the stroke of 0.1 m by 1e-8 m of 640 µm.
+    for (turned, straight) in stroked([cos, sin]).iter().zip(&straight) {
+        assert!((turned - straight).abs() < 1e-3, "{turned} for {straight}");
+    }
+    assert!(rms(&stroked([-sin, cos])) < 1e-3);
 }

@@ -34,6 +34,9 @@ pub(crate) fn bar_ui(ui: &mut Ui, prompts: &mut Prompts, earlier: &[KeptPrompt])
         } else if ui.button(words::MAKE).on_hover_text(words::MAKE_HELP).clicked() {
             asked = Some(make(prompts));
         }
+        if let Some(command) = simulation_ui(ui, prompts) {
+            asked = Some(command);
+        }
         generator_ui(ui, prompts);
         // An id of its own: the widgets before it change while a texture is made, and its focus must not.
         let field = TextEdit::singleline(&mut prompts.text)
@@ -54,6 +57,15 @@ pub(crate) fn bar_ui(ui: &mut Ui, prompts: &mut Prompts, earlier: &[KeptPrompt])
 
 fn make(prompts: &Prompts) -> PromptCommand {
     PromptCommand::Make { prompt: prompts.text.clone(), seed: 1 }
+}
+
+/// Draws the progress of a simulation, if one runs.
+fn simulation_ui(ui: &mut Ui, prompts: &Prompts) -> Option<PromptCommand> {
+    let share = prompts.simulated_share()?;
+    let stop = ui.button(words::STOP_SIMULATION).on_hover_text(words::STOP_SIMULATION_HELP);
+    let bar = ProgressBar::new(share).desired_width(90.0).text(words::SIMULATING);
+    ui.add(bar).on_hover_text(words::SIMULATING_HELP);
+    stop.clicked().then_some(PromptCommand::StopSimulation)
 }
 
 /// Draws the choice of the picture generator, if a diffusion model is installed.

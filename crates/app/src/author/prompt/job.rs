@@ -1,7 +1,6 @@
 //! Background job that makes an estimate from words or a photo.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use anyhow::Context as _;
@@ -17,6 +16,7 @@ use shagreen_learn::diffusion::Wish;
 use shagreen_learn::picture_predictor::PicturePredictor;
 
 use super::Arrived;
+use super::course::Course;
 use super::position_estimate::{Origin, PositionEstimate, on_axes};
 use crate::state::background::in_background;
 use crate::state::source::Source;
@@ -44,14 +44,6 @@ pub(super) struct Maker {
     pub(super) diffusion: Option<AddedDiffusion>,
 }
 
-/// Progress of a job, and whether it was stopped.
-#[derive(Debug, Default)]
-struct Course {
-    n_done: AtomicUsize,
-    n_steps: AtomicUsize,
-    is_stopped: AtomicBool,
-}
-
 /// Running job; dropping it stops it.
 pub(super) struct Job {
     course: Arc<Course>,
@@ -72,20 +64,14 @@ impl Job {
         let of_space = axes.clone();
         let (on_the_way, screen) = (Arc::clone(&course), ctx.clone());
         let work = move || {
-            let step = || {
-                on_the_way.n_done.fetch_add(1, Ordering::Relaxed);
-                screen.request_repaint();
-                !on_the_way.is_stopped.load(Ordering::Relaxed)
-            };
-            made(wanted, &maker, &of_space, &on_the_way.n_steps, step).map_err(|error| format!("{error:#}"))
+            made(wanted, &maker, &of_space, &on_the_way, &screen).map_err(|error| format!("{error:#}"))
         };
         Self { course, replaces, axes, arriving: in_background(ctx.clone(), work) }
     }
 
     /// Progress, 0 to 1, if the job has steps.
     pub(super) fn progress(&self) -> Option<f32> {
-        let n_steps = self.course.n_steps.load(Ordering::Relaxed);
-        (n_steps > 0).then(|| self.course.n_done.load(Ordering::Relaxed) as f32 / n_steps as f32)
+        self.course.progress()
     }
 
     /// Result, once the job has finished.
@@ -102,7 +88,7 @@ impl Job {
 
 impl Drop for Job {
     fn drop(&mut self) {
-        self.course.is_stopped.store(true, Ordering::Relaxed);
+        self.course.stop();
     }
 }
 
@@ -111,8 +97,8 @@ fn made(
     wanted: Wanted,
     maker: &Maker,
     axes: &[String; 2],
-    n_steps: &AtomicUsize,
-    step: impl Fn() -> bool,
+    course: &Course,
+    ctx: &Context,
 ) -> anyhow::Result<Option<PositionEstimate>> {
     let looker = match &maker.models {
         Some(models) => models.looker()?,
@@ -127,16 +113,16 @@ fn made(
                 Some(added) => {
                     let models = maker.models.as_ref().context(strings::NO_MODELS)?;
                     let wish = Wish::usual(&prompt, seed);
-                    n_steps.store(wish.n_steps, Ordering::Relaxed);
-                    let Some(made) = generate_by_diffusion(models, added, &wish, step)? else {
+                    course.set_steps(wish.n_steps);
+                    let Some(made) = generate_by_diffusion(models, added, &wish, || course.step(ctx))? else {
                         return Ok(None);
                     };
                     made
                 }
             };
             let witness = made.witness();
-            let (made_by, surface) = (made.by, made.picture);
-            let (axes, disputed) = told(&looker, Some(&understood), &surface, axes, witness)?;
+            let (made_by, picture) = (made.by, made.picture);
+            let (axes, disputed) = told(&looker, Some(&understood), &picture, axes, witness)?;
             let mut said = strings::said_of_words(&understood);
             if !disputed.is_empty() {
                 said.insert(0, strings::disputed(&disputed));
@@ -146,7 +132,12 @@ fn made(
                 said.push(strings::NO_SCALE.to_owned());
             }
             said.push(strings::seen_by(looker.model().eyes().name()));
-            guess(Origin::Words { prompt, seed }, made_by, name, &surface, axes, said, !disputed.is_empty())
+            let made = PositionEstimate {
+                surface: made.relief.map(|relief| relief.surface),
+                is_disputed: !disputed.is_empty(),
+                ..guess(Origin::Words { prompt, seed }, made_by, name, &picture, axes, said)?
+            };
+            Ok(Some(made))
         }
         Wanted::Photo(source) => {
             let name = source.name();
@@ -156,7 +147,8 @@ fn made(
             let (axes, _) = told(&looker, None, &surface, axes, Witness::OnItsOwn)?;
             let said = vec![strings::seen_by(looker.model().eyes().name()), strings::NO_SCALE.to_owned()];
             let stem = name.rsplit_once('.').map_or(name.as_str(), |(stem, _)| stem).to_owned();
-            guess(Origin::Photo(name), strings::A_PHOTO.to_owned(), stem, &surface, axes, said, false)
+            let made = guess(Origin::Photo(name), strings::A_PHOTO.to_owned(), stem, &surface, axes, said)?;
+            Ok(Some(made))
         }
     }
 }
@@ -183,8 +175,17 @@ fn guess(
     surface: &Surface,
     axes: [Estimate; 2],
     said: Vec<String>,
-    is_disputed: bool,
-) -> anyhow::Result<Option<PositionEstimate>> {
+) -> anyhow::Result<PositionEstimate> {
     let picture = Arc::new(encode_jpeg(&Rgb::from(surface), surface.millimeters)?);
-    Ok(Some(PositionEstimate { key: None, origin, made_by, picture, name, axes, said, is_disputed }))
+    Ok(PositionEstimate {
+        key: None,
+        origin,
+        made_by,
+        picture,
+        surface: None,
+        name,
+        axes,
+        said,
+        is_disputed: false,
+    })
 }

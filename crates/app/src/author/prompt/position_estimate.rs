@@ -8,6 +8,7 @@ use shagreen_core::surfaces::generated::{Witness, agree};
 use shagreen_core::surfaces::prompt::{OPEN, PromptInterpretation};
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_formats::picture::Picture;
+use shagreen_studio::felt::GeneratedSurface;
 
 use crate::strings::prompt as strings;
 
@@ -22,6 +23,8 @@ pub struct PositionEstimate {
     pub made_by: String,
     /// Generated picture or photo.
     pub picture: Arc<Picture>,
+    /// Surface that a procedural picture shows.
+    pub surface: Option<GeneratedSurface>,
     /// Name of the texture.
     pub name: String,
     /// Estimates along the two axes of the space (0 to 100), with standard deviations.

@@ -4,6 +4,7 @@ use egui::{Color32, Grid, Label, RichText, Ui};
 use shagreen_core::people::ratings::poles;
 use shagreen_core::space::LabelSource;
 use shagreen_core::texture::TextureModel;
+use shagreen_core::units::Newtons;
 use shagreen_formats::library::{Provenance, TextureEntry};
 
 use crate::look::theme::{GAP, tokens};
@@ -68,10 +69,12 @@ pub(super) fn about_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize) {
 }
 
 /// Draws the parameters of the texture model.
-pub(super) fn model_ui(ui: &mut Ui, entry: &TextureEntry) {
+pub(super) fn model_ui(ui: &mut Ui, panel: &Panel<'_>, entry: &TextureEntry) {
     let model = &entry.model;
     heading_ui(ui, words::MODEL, "");
-    let friction = model.friction().map_or(words::NO_FRICTION.to_owned(), |mu| format!("{mu:.2}"));
+    let friction = model.friction().map_or(words::NO_FRICTION.to_owned(), |coefficient| {
+        words::friction(coefficient, stick_slip(model), panel.session.renders_friction())
+    });
     let landing = model
         .tap()
         .map_or(words::NO_LANDING.to_owned(), |tap| words::landing(tap.frequency.0, tap.decay_per_sec));
@@ -95,6 +98,16 @@ pub(super) fn model_ui(ui: &mut Ui, entry: &TextureEntry) {
         facts.push(fact(words::STIFFNESS, stiffness, words::PHYSICAL_HELP));
     }
     facts_ui(ui, "model", &facts);
+}
+
+/// Highest speed in mm/s at which a tip sticks and slips, and the force in N of that speed: 1 N, or the highest force of
+/// the model if it slides steadily at 1 N. `None` if it slides at both.
+fn stick_slip(model: &TextureModel) -> Option<(f64, f64)> {
+    let (coefficient, stick_slip) = (model.friction()?, model.stick_slip()?);
+    [Newtons(1.0), model.force_max()].into_iter().find_map(|force| {
+        let critical = stick_slip.critical_speed(coefficient, force)?;
+        Some((critical.mm_per_s(), force.0))
+    })
 }
 
 /// Ranges of speed and force that the model covers, as text.

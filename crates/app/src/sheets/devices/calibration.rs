@@ -10,6 +10,7 @@ use shagreen_core::actuator::{Actuator, Drive, Limits, limited_drive};
 use shagreen_core::units::{Hertz, Kilograms, Volts};
 use shagreen_device::audio_input::InputInfo;
 use shagreen_device::measure::{Listener, measure};
+use shagreen_device::serial::ID_PREFIX;
 use shagreen_formats::measured_profile::{CalibrationConditions, measured_profile};
 
 use crate::state::background::in_background;
@@ -102,7 +103,8 @@ fn measured(
     let sweep = Sweep { amplitude: question.amplitude, ..Sweep::USUAL };
     let drive = Drive::new(Volts(rig.full_scale_volts))?;
     let limits = rig.actuator().map_or(Limits::default(), Actuator::limits_in_volts);
-    let driven = (limited_drive(&limits, drive), rig.channels());
+    let (channels, _) = rig.channels(id.starts_with(ID_PREFIX));
+    let driven = (limited_drive(&limits, drive), channels);
     let sensitivity_mps2 = question.sensitivity_mps2;
     let listener = Listener::Input { id: input, channel_idx: 0, sensitivity_mps2 };
     let heard = measure(id, driven, &listener, &|rate_hz| sweep.drive_samples(rate_hz), go_on)?;

@@ -13,6 +13,7 @@ use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::plane_plot::{Dot, plane_plot};
 use crate::sheets::import::shown_model::ShownModel;
 use crate::strings::import as strings;
+use crate::strings::textures::FRICTION_HELP;
 
 /// Number of frequencies of a spectrum.
 const N_FREQUENCIES: usize = 120;
@@ -101,7 +102,7 @@ fn about_ui(ui: &mut Ui, entry: &TextureEntry, around: ImportContext<'_>) {
         (strings::N_NODES, model.n_nodes().to_string(), ""),
         (strings::MODEL_RATE, strings::rate(model.rate().0), ""),
         (strings::MODEL_ORDER, strings::orders(model.order(), model.ma_order()), strings::ORDER_HELP),
-        (strings::FRICTION, friction, ""),
+        (strings::FRICTION, friction, FRICTION_HELP),
         (strings::ORIGIN, or_unknown(&entry.origin), ""),
         (strings::TERMS, or_unknown(&entry.license), ""),
     ];

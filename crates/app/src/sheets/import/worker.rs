@@ -8,10 +8,12 @@ use shagreen_core::recording::Recording;
 use shagreen_core::recording::fit::{FitOptions, Fitted, fit};
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::TextureEntry;
+use shagreen_formats::recording::directional::StrokeFolder;
 use shagreen_formats::recording::{ColumnMap, Question, RecordingFileError, read_recording};
 use shagreen_formats::wav::sidecar_names;
 use shagreen_studio::import::{MAP_ENDING, format_of_ending};
 
+use crate::sheets::import::directional_folder::{FolderTexture, strokes_in, textures};
 use crate::sheets::import::trace::Trace;
 use crate::state::source::{Source, sidecar_of, without_folders};
 use crate::strings::import as strings;
@@ -196,8 +198,26 @@ impl Request {
 
 /// Reads files, column maps first, since they describe the columns of the other files.
 fn load(sources: Vec<Source>, outbox: &Sender<Message>) -> bool {
+    let mut files = Vec::new();
+    for source in sources {
+        let Some(found) = strokes_in(&source) else {
+            files.push(source);
+            continue;
+        };
+        files.extend(found.files);
+        let is_heard = match found.strokes {
+            Ok(strokes) => load_strokes(strokes, outbox),
+            Err(reason) => {
+                let content = LoadedContent::Failed(reason);
+                outbox.send(Message::Loaded(Loaded { name: source.name(), content })).is_ok()
+            }
+        };
+        if !is_heard {
+            return false;
+        }
+    }
     let (maps, others): (Vec<Source>, Vec<Source>) =
-        without_folders(sources).into_iter().partition(|source| source.ending() == MAP_ENDING);
+        without_folders(files).into_iter().partition(|source| source.ending() == MAP_ENDING);
     let mut map = ColumnMap::default();
     for source in maps {
         let content = match source.bytes().and_then(|bytes| read_map(&bytes)) {
@@ -215,6 +235,17 @@ fn load(sources: Vec<Source>, outbox: &Sender<Message>) -> bool {
         let content =
             source.bytes().map_or_else(LoadedContent::Failed, |bytes| load_one(source, bytes, &others, &map));
         outbox.send(Message::Loaded(Loaded { name: source.name(), content })).is_ok()
+    })
+}
+
+/// Fits the textures of a folder of strokes in several directions.
+fn load_strokes(found: StrokeFolder, outbox: &Sender<Message>) -> bool {
+    textures(found).all(|FolderTexture { name, made }| {
+        let content = match made {
+            Ok((entry, warnings)) => LoadedContent::Textures { entries: vec![entry], warnings },
+            Err(reason) => LoadedContent::Failed(reason),
+        };
+        outbox.send(Message::Loaded(Loaded { name, content })).is_ok()
     })
 }
 

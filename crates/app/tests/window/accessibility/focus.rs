@@ -211,9 +211,9 @@ pub(super) fn out_of_order(stops: &[Stop]) -> Vec<String> {
     let mut runs: Vec<(Rect, &Stop)> = Vec::new();
     let mut found = Vec::new();
     let mut before: Option<&Stop> = None;
-    // Rows of the library scroll while the focus moves.
-    let is_row =
-        |stop: &Stop| ["Texture ", "Menu of ", "Star "].iter().any(|begin| stop.name.starts_with(begin));
+    // Rows of the library, cards of contributions and controls of the shape scroll while the focus moves.
+    let begins = ["Texture ", "Menu of ", "Star ", "Solo ", "Pin ", "Unpin ", "Shape", "Reset "];
+    let is_row = |stop: &Stop| begins.iter().any(|begin| stop.name.starts_with(begin));
     for stop in stops.iter().filter(|stop| !is_on_canvas(stop) && !is_row(stop)) {
         if before.is_none_or(|before| goes_back(before.area, stop.area)) {
             runs.push((stop.area, stop));

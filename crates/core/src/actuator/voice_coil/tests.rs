@@ -8,6 +8,7 @@ use super::{
     Actuator, ActuatorError, DataSheet, Drive, Limits, Measured, Mechanics, Physical, Response, USUAL_LOWEST,
     drive_config, inverse, inverse_gain_bound, validate,
 };
+use crate::actuator::friction_display::FrictionDisplay;
 use crate::dsp::filter::Biquad;
 use crate::maths::rng::lcg_noise;
 use crate::units::{Hertz, Kilograms, Volts};
@@ -62,6 +63,7 @@ fn actuator() -> Actuator {
         },
         lowest: USUAL_LOWEST,
         calibrated: None,
+        friction: None,
     }
 }
 
@@ -333,6 +335,7 @@ fn a_drive_keeps_within_what_the_actuator_stands() {
         physical: Physical::default(),
         lowest: USUAL_LOWEST,
         calibrated: None,
+        friction: None,
     };
     let drive = Drive::new(Volts(5.0)).unwrap();
     let config = drive_config(&actuator, drive, true).unwrap();
@@ -395,5 +398,24 @@ fn a_rated_current_is_a_rated_voltage_through_the_resistance() {
         let motional = Complex::new(0.0, omega * mechanics.force_factor_n_per_a.powi(2)) / moves;
         let impedance = (Complex::new(mechanics.resistance_ohm, omega * 128e-6) + motional).norm();
         assert!(0.5 * mechanics.resistance_ohm / impedance <= 0.5, "at {omega} rad/s");
+    }
+}
+
+#[test]
+fn a_friction_display_needs_a_channel_and_a_carrier_that_an_output_can_play() {
+    let of = |carrier_hz, channel| {
+        let friction = Some(FrictionDisplay { carrier: Hertz(carrier_hz), channel });
+        validate(&Actuator { friction, ..actuator() })
+    };
+    assert_eq!(of(120.0, 2), Ok(()));
+    assert_eq!(of(30_000.0, 64), Ok(()));
+    for (carrier_hz, channel, expected) in [
+        (19.0, 2, "the carrier of the friction display in Hz is 19, needs 20 to 80000"),
+        (f64::NAN, 2, "the carrier of the friction display in Hz is NaN"),
+        (120.0, 0, "the channel of the friction display is 0, needs 1 to 64"),
+        (120.0, 65, "the channel of the friction display is 65"),
+    ] {
+        let message = of(carrier_hz, channel).unwrap_err().to_string();
+        assert!(message.contains(expected), "{message}");
     }
 }

@@ -28,6 +28,12 @@ pub enum FitError {
         /// Index of the row, from 0.
         row: usize,
     },
+    /// The direction of a recording is not finite.
+    #[error("recording {recording}: the direction is not a finite angle; state it")]
+    Direction {
+        /// Index of the recording.
+        recording: usize,
+    },
     /// The sample rate of a recording is too low for vibrations.
     #[error(
         "recording {recording} has a sample rate of {rate_hz} Hz; use recordings with at least {lowest_hz} Hz"

@@ -59,13 +59,24 @@ pub(super) fn compare(
             grains[i] = Some(plane.at(contact));
         }
     }
+    let (frequencies, comparisons) = with_grains(pieces, rate, &grains);
+    Ok(Compared { frequencies, comparisons, held_out })
+}
+
+/// Compares every segment with the grain that was predicted for it; a segment without one is compared with silence.
+/// Returns the frequencies of the spectra, and one comparison for each segment.
+pub(super) fn with_grains(
+    pieces: &[Piece],
+    rate: Hertz,
+    grains: &[Option<Grain>],
+) -> (Vec<Hertz>, Vec<Comparison>) {
     let n_bins = (WINDOW_SECS * rate.0).round() as usize;
     let step_hz = rate.0 / n_bins as f64;
     let first = (HIGH_PASS.0 / step_hz).ceil() as usize;
     let bins = first..n_bins.div_ceil(2);
     let spectra: Vec<[Vec<f64>; 2]> = pieces
         .iter()
-        .zip(&grains)
+        .zip(grains)
         .map(|(piece, grain)| {
             let measured = smear::measured(&piece.signal, rate, n_bins);
             let model = grain.as_ref().map_or_else(
@@ -83,7 +94,7 @@ pub(super) fn compare(
     let comparisons = (0..pieces.len())
         .map(|i| pooled(i, &pool(i, pieces, &shares), pieces, &spectra, [&predicted, &usual]))
         .collect();
-    Ok(Compared { frequencies: bins.map(|k| Hertz(k as f64 * step_hz)).collect(), comparisons, held_out })
+    (bins.map(|k| Hertz(k as f64 * step_hz)).collect(), comparisons)
 }
 
 /// Fold of every segment.

@@ -200,20 +200,25 @@ impl<'a> Surface<'a> {
         order: usize,
         interpolation: Interpolation,
     ) -> Result<TextureModel, FitError> {
-        let mut nodes = Vec::new();
-        for place in self.places() {
+        let node = |place: usize| {
             let Piece { speed_mps, force_n, .. } = *self.pieces[place];
-            let weights = self.weights(self.share(speed_mps, force_n));
-            let lsf = lsf_from_ar(&self.predictor(&weights, speed_mps, order)?.0.ar)
-                .ok_or(FitError::Unstable { speed_mps, force_n })?;
-            nodes.push(GrainNode {
-                speed: MetersPerSecond(speed_mps),
-                force: Newtons(force_n),
-                lsf,
-                level_mps2: self.level_mps2(&weights, speed_mps, force_n),
-            });
-        }
+            self.node(speed_mps, force_n, order)
+        };
+        let nodes = self.places().into_iter().map(node).collect::<Result<Vec<GrainNode>, FitError>>()?;
         Ok(TextureModel::new(rate, nodes, None)?.with_interpolation(interpolation)?)
+    }
+
+    /// Estimated node at a speed and force.
+    pub(super) fn node(&self, speed_mps: f64, force_n: f64, order: usize) -> Result<GrainNode, FitError> {
+        let weights = self.weights(self.share(speed_mps, force_n));
+        let lsf = lsf_from_ar(&self.predictor(&weights, speed_mps, order)?.0.ar)
+            .ok_or(FitError::Unstable { speed_mps, force_n })?;
+        Ok(GrainNode {
+            speed: MetersPerSecond(speed_mps),
+            force: Newtons(force_n),
+            lsf,
+            level_mps2: self.level_mps2(&weights, speed_mps, force_n),
+        })
     }
 }
 

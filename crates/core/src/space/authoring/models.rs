@@ -2,14 +2,17 @@
 
 use std::sync::Arc;
 
-use crate::space::authoring::layers::{mean_friction, mean_tap};
+use crate::space::authoring::LEAST_WEIGHT;
+use crate::space::authoring::layers::{mean_friction, mean_stick_slip, mean_tap, mean_turn_rad};
 use crate::space::field::{Field, Site};
 use crate::space::sampled::{Layers, SampledGrain, Sampling};
 use crate::space::{Space, SpacePoint};
+use crate::texture::height_map::HeightMap;
 use crate::texture::plane::Plane;
 use crate::texture::relief::Relief;
+use crate::texture::stick_slip::StickSlip;
 use crate::texture::tap::Tap;
-use crate::texture::{TextureModel, TextureModelError};
+use crate::texture::{GrainNode, TextureModel, TextureModelError};
 
 /// All placed textures of a space on one sampling lattice, and the field over them.
 #[derive(Clone, Debug)]
@@ -24,15 +27,32 @@ pub struct Models {
 struct Sampled {
     /// Library index of the texture.
     texture: usize,
+    /// Grain across the lay.
     grain: SampledGrain,
+    /// Grain along the lay; `None` for an isotropic texture.
+    along: Option<SampledGrain>,
     friction: Option<f64>,
     tap: Option<Tap>,
     relief: Option<Arc<Relief>>,
+    height_map: Option<Arc<HeightMap>>,
+    stick_slip: Option<StickSlip>,
+    turn_rad: f64,
 }
 
 impl Sampled {
     fn at(&self, at: SpacePoint) -> Site<'_> {
-        Site { at: at.xy(), grain: &self.grain, friction: self.friction, tap: self.tap }
+        let along = self.along.as_ref();
+        Site { at: at.xy(), grain: &self.grain, along, friction: self.friction, tap: self.tap }
+    }
+
+    /// Grain along the lay, which is that across it for an isotropic texture.
+    fn grain_along(&self) -> &SampledGrain {
+        self.along.as_ref().unwrap_or(&self.grain)
+    }
+
+    /// Whether the texture depends on the direction of the stroke.
+    fn has_axes(&self) -> bool {
+        self.along.is_some() || self.height_map.is_some() || self.relief.is_some()
     }
 }
 
@@ -89,12 +109,16 @@ impl Models {
         }
         let sites: Vec<Sampled> = placed
             .into_iter()
-            .map(|(texture, Layers { plane, friction, tap })| Sampled {
+            .map(|(texture, layers)| Sampled {
                 texture,
-                grain: sampling.sample(plane),
-                friction,
-                tap,
-                relief: plane.relief().cloned(),
+                grain: sampling.sample(layers.plane),
+                along: layers.along.map(|along| sampling.sample(along)),
+                friction: layers.friction,
+                tap: layers.tap,
+                relief: layers.plane.relief().cloned(),
+                height_map: layers.height_map.cloned(),
+                stick_slip: layers.stick_slip,
+                turn_rad: layers.turn_rad,
             })
             .collect();
         let at_places: Vec<Site<'_>> =
@@ -103,15 +127,14 @@ impl Models {
         Ok(Self { sampling, sites, field })
     }
 
-    /// Texture of the field at a point, moved towards a pinned texture by the weight in `lock`; without a relief.
+    /// Texture of the field at a point, moved towards a pinned texture by the weight in `lock`; with grain, friction
+    /// and tap only.
     pub(super) fn texture(
         &self,
         at: SpacePoint,
         lock: Option<(usize, f64)>,
     ) -> Result<TextureModel, TextureModelError> {
-        let own = |(texture, share): (usize, f64)| {
-            Some((self.sites.iter().find(|site| site.texture == texture)?.at(at), share))
-        };
+        let own = |(texture, share): (usize, f64)| Some((self.site(texture)?.at(at), share));
         self.field.texture(&self.sampling, at.xy(), lock.and_then(own))
     }
 
@@ -120,12 +143,47 @@ impl Models {
         if self.sites.iter().all(|site| site.relief.is_none()) {
             return None;
         }
-        let of = |texture: usize| {
-            let site = self.sites.iter().find(|site| site.texture == texture);
-            site.and_then(|site| site.relief.as_deref())
-        };
-        let parts: Vec<_> = parents.iter().map(|(texture, weight)| (of(*texture), *weight)).collect();
+        let parts: Vec<_> =
+            self.weighted(parents).map(|(site, weight)| (site.relief.as_deref(), weight)).collect();
         Relief::blended(&parts).map(Arc::new)
+    }
+
+    /// Weighted sum of the textures' height maps, each in its own axes; `None` if no texture has one.
+    pub(super) fn height_map(&self, parents: &[(usize, f64)]) -> Option<Arc<HeightMap>> {
+        if self.sites.iter().all(|site| site.height_map.is_none()) {
+            return None;
+        }
+        if let Some(alone) = self.alone(parents) {
+            return alone.height_map.clone();
+        }
+        let parts: Vec<_> =
+            self.contributing(parents).map(|(site, weight)| (site.height_map.as_deref(), weight)).collect();
+        HeightMap::blended(&parts).map(Arc::new)
+    }
+
+    /// Mean parameters of stick-slip friction; `None` if no texture has it.
+    pub(super) fn stick_slip(&self, parents: &[(usize, f64)]) -> Option<StickSlip> {
+        if self.sites.iter().all(|site| site.stick_slip.is_none()) {
+            return None;
+        }
+        match self.alone(parents) {
+            Some(alone) => alone.stick_slip,
+            None => {
+                mean_stick_slip(self.contributing(parents).map(|(site, weight)| (site.stick_slip, weight)))
+            }
+        }
+    }
+
+    /// Mean rotation, in rad, of the textures that depend on the direction of the stroke; zero if there are none.
+    pub(super) fn turn_rad(&self, parents: &[(usize, f64)]) -> f64 {
+        if self.sites.iter().all(|site| site.turn_rad == 0.0) {
+            return 0.0;
+        }
+        if let Some(alone) = self.alone(parents) {
+            return alone.turn_rad;
+        }
+        let parts = self.contributing(parents).filter(|(site, _)| site.has_axes());
+        mean_turn_rad(parts.map(|(site, weight)| (site.turn_rad, weight)))
     }
 
     /// Weight of each texture in the field at a point.
@@ -138,24 +196,54 @@ impl Models {
         if inside == to { to } else { SpacePoint::from_xy(self.field.supported(inside.xy(), to.xy())) }
     }
 
-    /// Weighted mean of textures: line spectral frequencies and ln level at every contact; without a relief.
+    /// Weighted mean of textures: line spectral frequencies and ln level at every contact, across the lay and, if one
+    /// of the textures is directional, along it; with friction and tap, without other layers.
     pub(super) fn mean(&self, parents: &[(usize, f64)]) -> Result<TextureModel, TextureModelError> {
+        let known: Vec<(&Sampled, f64)> = self.weighted(parents).collect();
+        let across = self.mean_nodes(known.iter().map(|(site, weight)| (&site.grain, *weight)));
+        let is_directional = self.contributing(parents).any(|(site, _)| site.along.is_some());
+        let along = is_directional
+            .then(|| self.mean_nodes(known.iter().map(|(site, weight)| (site.grain_along(), *weight))));
+        let friction = mean_friction(known.iter().map(|(site, weight)| (site.friction, *weight)));
+        let tap = mean_tap(known.iter().map(|(site, weight)| (site.tap, *weight)));
+        self.sampling.texture(across, along, friction, tap)
+    }
+
+    /// Nodes with the weighted mean of line spectral frequencies and ln level.
+    fn mean_nodes<'a, I: Iterator<Item = (&'a SampledGrain, f64)>>(&self, grains: I) -> Vec<GrainNode> {
         let first = &self.sites[0].grain;
         let (mut lsf, mut ln_level) = (vec![0.0; first.lsf.len()], vec![0.0; first.ln_level.len()]);
-        let known = parents.iter().filter_map(|(texture, weight)| {
-            self.sites.iter().find(|site| site.texture == *texture).map(|site| (site, *weight))
-        });
-        let known: Vec<(&Sampled, f64)> = known.collect();
-        for (site, weight) in &known {
-            for (sum, w) in lsf.iter_mut().zip(&site.grain.lsf) {
+        for (grain, weight) in grains {
+            for (sum, w) in lsf.iter_mut().zip(&grain.lsf) {
                 *sum += weight * w;
             }
-            for (sum, l) in ln_level.iter_mut().zip(&site.grain.ln_level) {
+            for (sum, l) in ln_level.iter_mut().zip(&grain.ln_level) {
                 *sum += weight * l;
             }
         }
-        let friction = mean_friction(known.iter().map(|(site, weight)| (site.friction, *weight)));
-        let tap = mean_tap(known.iter().map(|(site, weight)| (site.tap, *weight)));
-        self.sampling.texture_of_frequencies(&lsf, &ln_level, friction, tap)
+        self.sampling.nodes_of_frequencies(&lsf, &ln_level)
+    }
+
+    /// Texture with this library index.
+    fn site(&self, texture: usize) -> Option<&Sampled> {
+        self.sites.iter().find(|site| site.texture == texture)
+    }
+
+    /// Textures with these library indices and weights.
+    fn weighted(&self, parents: &[(usize, f64)]) -> impl Iterator<Item = (&Sampled, f64)> {
+        parents.iter().filter_map(move |(texture, weight)| Some((self.site(*texture)?, *weight)))
+    }
+
+    /// As [`Models::weighted`], without textures whose weight is a rounding error.
+    fn contributing(&self, parents: &[(usize, f64)]) -> impl Iterator<Item = (&Sampled, f64)> {
+        self.weighted(parents).filter(|(_, weight)| weight.abs() > LEAST_WEIGHT)
+    }
+
+    /// The texture that contributes alone, as a pinned one at its position; its layers stay as they are.
+    fn alone(&self, parents: &[(usize, f64)]) -> Option<&Sampled> {
+        match parents {
+            [(texture, weight)] if *weight == 1.0 => self.site(*texture),
+            _ => None,
+        }
     }
 }

@@ -1,3 +1,6 @@
+mod layers;
+mod taps;
+
 use std::sync::Arc;
 
 use proptest::prelude::{prop, prop_assert, proptest};
@@ -12,6 +15,7 @@ use crate::texture::blend::{Mode, mixture_psd};
 use crate::texture::plane::Plane;
 use crate::texture::profile::Profile;
 use crate::texture::relief::Relief;
+use crate::texture::shape::Shape;
 use crate::texture::tap::Tap;
 use crate::texture::test_textures::two_resonances;
 use crate::texture::{GrainNode, TextureModel};
@@ -130,6 +134,24 @@ fn the_field_tells_truth_from_noise() {
     assert!((friction / (0.2 * 0.5_f64.exp()) - 1.0).abs() < 0.01, "{friction}");
     assert!((tap.frequency.0 / (300.0 * (-1.0_f64).exp()) - 1.0).abs() < 0.01, "{tap:?}");
     assert!((tap.decay_per_sec / 90.0 - 1.0).abs() < 1e-6);
+}
+
+/// A shape changes the interpolated texture and the taps of library textures, and no weight.
+#[test]
+fn a_shape_is_in_the_texture_and_in_the_tap() {
+    let world = world(12, 1.0, 2);
+    let shape = Shape { level_db: -6.0, softness: 2.0, ..Shape::default() };
+    let tap = Tap { frequency: Hertz(200.0), decay_per_sec: 80.0, amplitude_mps2: 6.0 };
+    for mode in Mode::ALL {
+        let plain = world.authoring.author(point(50.0, 45.0), &mode.into()).unwrap();
+        let shaped = plain.clone().shaped(&shape).unwrap();
+        assert_eq!(shaped.parents, plain.parents);
+        assert_eq!(shaped.model, plain.model.as_ref().map(|model| shape.apply(model).unwrap()));
+        let frequency_hz = |authored: &Authored| authored.tap(|_| Some(tap)).unwrap().frequency.0;
+        let ratio = frequency_hz(&shaped) / frequency_hz(&plain);
+        assert!((ratio - 0.5).abs() < 1e-9, "{mode:?}: {ratio}");
+        assert_eq!(plain.clone().shaped(&Shape::default()), Ok(plain));
+    }
 }
 
 #[test]

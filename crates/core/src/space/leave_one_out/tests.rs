@@ -91,7 +91,7 @@ fn nothing_leaks_from_what_is_left_out() {
     let leaking = |world: &[(TextureModel, Option<SpacePoint>)]| {
         let planes: Vec<Plane> = world.iter().map(|(model, _)| Plane::new(model)).collect();
         let layers: Vec<_> =
-            planes.iter().map(|plane| Some(Layers { plane, friction: None, tap: None })).collect();
+            world.iter().zip(&planes).map(|((model, _), plane)| Some(Layers::of(model, plane))).collect();
         // Models of the whole space, including the texture: the leaking control.
         let space = rest_of(&lent(world), usize::MAX).unwrap();
         let models = Arc::new(Models::new(&space, &layers).unwrap());

@@ -2,6 +2,7 @@
 
 use crate::space::SpacePoint;
 use crate::space::texture_path::MAX_KEYS;
+use crate::texture::TextureModelError;
 
 /// Quantity that is measured along a path.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -91,6 +92,9 @@ pub enum TexturePathError {
         /// Position of the point.
         at: SpacePoint,
     },
+    /// A texture of the path cannot have a shape.
+    #[error("a texture of the path cannot have this shape: {0}")]
+    Shape(TextureModelError),
 }
 
 impl Along {

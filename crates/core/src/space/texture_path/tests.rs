@@ -5,6 +5,7 @@ use super::{
 use crate::space::SpacePoint;
 use crate::space::authoring::tests::world;
 use crate::texture::blend::Mode;
+use crate::texture::shape::Shape;
 use crate::units::Contact;
 
 fn stop(rs: f64, hs: f64, along: f64) -> Stop {
@@ -117,4 +118,17 @@ fn words_round_trip() {
     for along in Along::ALL {
         assert_eq!(Along::from_id(along.id()), Some(along));
     }
+}
+
+#[test]
+fn a_shape_is_that_of_every_texture_along_the_path() {
+    let world = world(12, 1.0, 2);
+    let path = TexturePath::of_route(&world.authoring, &route(AtEnd::Hold), &Mode::Field.into()).unwrap();
+    let shape = Shape { level_db: -6.0, ..Shape::default() };
+    let shaped = path.clone().shaped(&shape).unwrap();
+    for (key, before) in shaped.keys().iter().zip(path.keys()) {
+        assert_eq!(key.model, shape.apply(&before.model).unwrap());
+        assert_eq!((key.stop, key.is_stop), (before.stop, before.is_stop));
+    }
+    assert_eq!(path.clone().shaped(&Shape::default()), Ok(path));
 }

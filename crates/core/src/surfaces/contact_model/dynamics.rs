@@ -24,7 +24,7 @@ impl Path {
     }
 
     /// Returns height and friction at a position, by linear interpolation.
-    fn at(&self, x_m: f64) -> (f64, f64) {
+    pub(super) fn at(&self, x_m: f64) -> (f64, f64) {
         let position = x_m / self.step_m;
         let i = position as usize;
         let t = position - i as f64;

@@ -12,13 +12,16 @@
 
 use std::f64::consts::TAU;
 
+use shagreen_synth::tap::REFERENCE_IMPACT_MPS;
+
 use crate::surfaces::contact_model::{Tool, effective_modulus_pa};
 use crate::surfaces::material::Material;
 use crate::texture::tap::Tap;
 use crate::units::{Hertz, MetersPerSecond};
 
-/// Impact speed at which the tap transient of a texture is stated; rendering scales it from there.
-pub const REFERENCE_LANDING: MetersPerSecond = MetersPerSecond(0.1);
+/// Impact speed at which the tap transient of a texture is stated. Rendering scales it from there by the same law, except
+/// that it also scales the decay by the hand, because a [`Tap`] does not state it separately.
+pub const REFERENCE_LANDING: MetersPerSecond = MetersPerSecond(REFERENCE_IMPACT_MPS);
 
 /// Ratio of contact time to deepest indentation over speed, in an elastic Hertz impact.
 const CONTACT_TIME: f64 = 2.943;
@@ -58,6 +61,8 @@ fn unit_peak(angular_per_s: f64, decay_per_sec: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use shagreen_synth::tap::Taps;
+
     use super::{REFERENCE_LANDING, landing};
     use crate::surfaces::contact_model::{PEN, Tool, effective_modulus_pa};
     use crate::surfaces::material::Material;
@@ -127,5 +132,30 @@ mod tests {
             (0..100_000).map(|i| tap.at(f64::from(i) * 1e-6)).fold(0.0, f64::max)
         };
         assert!((peak(fast) / peak(slow) - 4.0_f64.powf(1.2)).abs() < 0.01);
+    }
+
+    #[test]
+    fn the_renderer_scales_a_landing_as_the_model_does() {
+        const RATE_HZ: f32 = 192_000.0;
+        let material = material(1e7, 0.2);
+        let stated = landing(&material, &PEN, REFERENCE_LANDING);
+        for mps in [0.02, 0.05, 0.1, 0.2, 0.3] {
+            let model = landing(&material, &PEN, MetersPerSecond(mps));
+            let strength = mps / REFERENCE_LANDING.0;
+            let mut taps = Taps::new(RATE_HZ);
+            taps.strike(stated.into(), strength as f32);
+            let mut rendered = vec![0.0_f32; 19_200];
+            taps.add_to(&mut rendered);
+            let peak = rendered.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
+            let expected = (0..100_000).map(|i| model.at(f64::from(i) * 1e-6)).fold(0.0, f64::max);
+            assert!((f64::from(peak) / expected - 1.0).abs() < 1e-3, "{peak} for {expected} at {mps} m/s");
+            // Half a period of about 5 ms, to one sample.
+            let crossing = 1 + rendered[1..].iter().position(|x| *x <= 0.0).unwrap();
+            let half_periods = 2.0 * model.frequency.0 * crossing as f64 / f64::from(RATE_HZ);
+            assert!((half_periods - 1.0).abs() < 2e-3, "{half_periods} at {mps} m/s");
+            // Only the share of the hand differs.
+            let off = stated.decay_per_sec * strength.powf(0.2) / model.decay_per_sec - 1.0;
+            assert!(off.abs() < 0.3, "{off} at {mps} m/s");
+        }
     }
 }

@@ -1,7 +1,7 @@
 use super::{
-    Contact, Material, MetersPerSecond, Newtons, PEN, PROFILE_STEP_M, Springs, StrokeError, Surface,
-    contact_stiffness_n_per_m, effective_modulus_pa, hardness, hertz_stiffness_n_per_m, patch_radius_m,
-    prepare, press, rms, simulate,
+    ACROSS, ALONG, Contact, Material, MetersPerSecond, Newtons, PEN, PROFILE_STEP_M, Radians, Springs,
+    StrokeError, Surface, contact_stiffness_n_per_m, effective_modulus_pa, hardness, hertz_stiffness_n_per_m,
+    patch_radius_m, prepare, press, rms, simulate,
 };
 use crate::surfaces::height_field::{Tile, synthesize};
 use crate::surfaces::material::tests::plain;
@@ -15,7 +15,7 @@ fn at(speed_mps: f64, force_n: f64) -> Contact {
 }
 
 fn surface(material: &Material) -> Surface {
-    prepare(material, &synthesize(material, TILE, 1), &PEN, 0.18, 1)
+    prepare(material, &synthesize(material, TILE, 1), &PEN, 0.18, ACROSS, 1)
 }
 
 #[test]
@@ -117,4 +117,19 @@ fn what_cannot_be_stroked_is_refused() {
     assert!(matches!(fails(at(f64::NAN, 1.0), 1.0), StrokeError::NotPositive { .. }));
     assert!(matches!(fails(at(0.1, 1.0), f64::INFINITY), StrokeError::NotPositive { .. }));
     assert!(matches!(fails(at(0.1, 1.0), 3.0), StrokeError::PathTooShort { .. }));
+}
+
+#[test]
+fn a_brushed_surface_is_quiet_along_its_lay_and_an_isotropic_one_is_not() {
+    let level = |material: &Material, angle: Radians| {
+        let field = synthesize(material, TILE, 1);
+        let surface = prepare(material, &field, &PEN, 0.18, angle, 1);
+        rms(&simulate(&surface, at(0.1, 1.0), 1.0, 3).expect("valid stroke"))
+    };
+    let decibels = |material: &Material| 20.0 * (level(material, ALONG) / level(material, ACROSS)).log10();
+    let brushed = Material { stretch: 30.0, ..plain() };
+    // Above the roll-off, power falls as the elongation to the power of -2H, for heights and friction: by 18 to 21 dB.
+    assert!(decibels(&brushed) < -10.0, "{} dB", decibels(&brushed));
+    // Two strokes of a second over a random surface.
+    assert!(decibels(&plain()).abs() < 3.0, "{} dB", decibels(&plain()));
 }

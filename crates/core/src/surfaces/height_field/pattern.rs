@@ -49,11 +49,7 @@ struct Lattice {
 impl Lattice {
     fn new(pattern: &Pattern, tile: Tile, seed: u64) -> Self {
         // The repeat unit of the pattern must also close at the seam.
-        let repeat = match pattern.kind {
-            PatternKind::Twill => 3,
-            PatternKind::PlainWeave | PatternKind::Domes | PatternKind::Loops => 2,
-            PatternKind::Ridges | PatternKind::Pebbles | PatternKind::Cells => 1,
-        };
+        let repeat = pattern.kind.n_periods();
         let repeats = (tile.side_m() / pattern.period_m / f64::from(repeat)).round().max(1.0);
         Self::with_periods(repeats as i64 * i64::from(repeat), pattern.jitter, seed)
     }

@@ -106,7 +106,8 @@ fn the_longest_phrase_and_inflections_count() {
 fn looks_are_collected() {
     let looks = of("dark red and white ribbed carpet, 1.5 mm grooves, fine").looks;
     assert_eq!((looks.color_srgb, looks.second_srgb), (Some([200, 20, 20]), Some([250, 250, 250])));
-    assert_eq!(looks.pattern, Some((PatternKind::Ridges, 1.5e-3)));
+    assert_eq!((looks.pattern, looks.is_period_stated), (Some((PatternKind::Ridges, 1.5e-3)), true));
+    assert!(!of("fine ribbed carpet").looks.is_period_stated);
     assert_eq!((looks.shade.lightness, looks.scale), (-0.4, 0.5));
     assert_eq!(of("carpet").looks.color_srgb, Some([150, 110, 90]));
     assert_eq!(of("not ribbed").looks.pattern, None);

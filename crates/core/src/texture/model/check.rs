@@ -7,7 +7,7 @@ use shagreen_synth::texture::Evaluated;
 use shagreen_synth::voice::{MAX_TICK, Voice};
 
 use crate::texture::{
-    FORCES_N, GAINS, GrainNode, LEVELS_MPS2, MAX_NODES, MAX_ORDER, MIN_LSF_GAP, MIN_NODE_DISTANCE,
+    FORCES_N, GAINS, Grain, GrainNode, LEVELS_MPS2, MAX_NODES, MAX_ORDER, MIN_LSF_GAP, MIN_NODE_DISTANCE,
     MIN_PUBLISHED_LSF_GAP, PublishedNode, RATES_HZ, SPEEDS_MPS, TextureModelError, VARIANCES,
 };
 use crate::units::Hertz;
@@ -58,6 +58,43 @@ pub(super) fn stable(nodes: &[GrainNode]) -> Result<(), TextureModelError> {
         Some(index) => Err(TextureModelError::Unstable { index }),
         None => Ok(()),
     }
+}
+
+/// Speeds and forces of the grains along and across the lay may differ by this fraction, for values that a file has
+/// rounded differently.
+const SAME: f64 = 1e-9;
+
+/// Checks the grain along the lay: measured nodes with the speeds, forces and order of the grain across it.
+pub(super) fn along(across: &Grain, along: &[GrainNode]) -> Result<(), TextureModelError> {
+    let Grain::Measured { nodes: across, .. } = across else {
+        return Err(TextureModelError::AlongPublished);
+    };
+    if along.len() != across.len() {
+        return Err(TextureModelError::AlongCount { n: along.len(), expected: across.len() });
+    }
+    measured(along).map_err(within_along)?;
+    for (index, (along, across)) in along.iter().zip(across).enumerate() {
+        let order = |node: &GrainNode| node.lsf.len() as f64;
+        for (what, value, expected) in [
+            ("speed in m/s", along.speed.0, across.speed.0),
+            ("force in N", along.force.0, across.force.0),
+            ("order", order(along), order(across)),
+        ] {
+            if (value - expected).abs() > SAME * expected {
+                return Err(TextureModelError::Along { what, index, value, expected });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Checks that the filters of the grain along the lay are stable in the renderer.
+pub(super) fn stable_along(nodes: &[GrainNode]) -> Result<(), TextureModelError> {
+    stable(nodes).map_err(within_along)
+}
+
+fn within_along(error: TextureModelError) -> TextureModelError {
+    TextureModelError::InAlong(Box::new(error))
 }
 
 /// Checks published nodes, which must include the boundary.
@@ -119,7 +156,7 @@ const DECAYED: f64 = 1e-9;
 /// Whether the impulse response of the renderer's filter, in its own precision, does not grow. Ascending line spectral
 /// frequencies describe a stable filter, but if many of them are close together, its `f32` coefficients need not be
 /// stable.
-pub(super) fn decays(lsf: &[f64]) -> bool {
+pub(in crate::texture) fn decays(lsf: &[f64]) -> bool {
     let silent = [0.0; MAX_ORDER];
     let mut at = Evaluated { lsf: silent, ma_lsf: silent, ma_order: 0, level_mps2: 1.0, sigma_mps2: 1.0 };
     for (to, from) in at.lsf.iter_mut().zip(lsf) {

@@ -103,6 +103,38 @@ pub enum TextureModelError {
     /// The interpolation of a published texture is fixed.
     #[error("the interpolation of a published texture is fixed; only measured textures have a choice")]
     Published,
+    /// A published texture cannot have a grain along its lay.
+    #[error(
+        "a published texture feels the same in all directions; only a measured texture can have a grain along its lay"
+    )]
+    AlongPublished,
+    /// The grain along the lay has another number of nodes than that across it.
+    #[error(
+        "the grain along the lay has {n} nodes, and that across it {expected}; give both the same speeds and forces"
+    )]
+    AlongCount {
+        /// Number of nodes along the lay.
+        n: usize,
+        /// Number of nodes across it.
+        expected: usize,
+    },
+    /// A node of the grain along the lay has another speed, force or order than the node across it.
+    #[error(
+        "{what} of node {index} is {value} along the lay and {expected} across it; give both the same speeds, forces and order, in the same sequence"
+    )]
+    Along {
+        /// Quantity that differs, with its unit.
+        what: &'static str,
+        /// Index of the node.
+        index: usize,
+        /// Value along the lay.
+        value: f64,
+        /// Value across the lay.
+        expected: f64,
+    },
+    /// The grain along the lay has another error.
+    #[error("the grain along the lay is not valid")]
+    InAlong(#[source] Box<TextureModelError>),
     /// The friction coefficient is negative or not finite.
     #[error("the friction coefficient is {value}; it must be finite and not negative")]
     Friction {

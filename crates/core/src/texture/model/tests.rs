@@ -1,7 +1,10 @@
-use super::test_textures::arma;
+use super::test_textures::{arma, two_resonances};
 use super::{GrainNode, Interpolation, PublishedNode, TextureModel, TextureModelError};
-use crate::texture::{LEVELS_MPS2, MAX_RADIAL_NODES};
+use crate::texture::stick_slip::StickSlip;
+use crate::texture::tap::Tap;
+use crate::texture::{LEVELS_MPS2, MAX_RADIAL_NODES, MIN_LSF_GAP};
 use crate::units::{Hertz, MetersPerSecond, Newtons};
+use std::f64::consts::{PI, TAU};
 
 fn node(speed: f64, lsf: &[f64]) -> GrainNode {
     GrainNode { speed: MetersPerSecond(speed), force: Newtons(1.0), lsf: lsf.to_vec(), level_mps2: 1.0 }
@@ -19,7 +22,7 @@ fn bad_numbers_are_named() {
     assert_eq!(make(1000.0, vec![node(0.1, &[2.0, 1.0])]), TextureModelError::Frequencies { index: 0 });
     assert_eq!(make(1000.0, vec![node(0.1, &[f64::NAN])]), TextureModelError::Frequencies { index: 0 });
     // Closer than the spacing of f32, between frequencies and to both ends.
-    for lsf in [[1.0, 1.0 + 1e-7], [1e-7, 1.0], [1.0, std::f64::consts::PI - 1e-7]] {
+    for lsf in [[1.0, 1.0 + 1e-7], [1e-7, 1.0], [1.0, PI - 1e-7]] {
         assert_eq!(make(1000.0, vec![node(0.1, &lsf)]), TextureModelError::Frequencies { index: 0 });
     }
 }
@@ -115,4 +118,84 @@ fn a_radial_basis_is_for_so_many_nodes_and_no_more() {
     assert_eq!(model(MAX_RADIAL_NODES).unwrap().interpolation(), Some(Interpolation::RadialBasis));
     let n = MAX_RADIAL_NODES + 1;
     assert_eq!(model(n), Err(TextureModelError::TooManyForRadialBasis { n }));
+}
+
+/// Nodes of the texture of [`two_resonances`], with half of its levels, after a change.
+fn along(change: &dyn Fn(&mut Vec<GrainNode>)) -> Result<TextureModel, TextureModelError> {
+    let model = two_resonances(&[0.05, 0.2], &[0.5, 1.0]);
+    let half = |n: &GrainNode| GrainNode { level_mps2: 0.5 * n.level_mps2, ..n.clone() };
+    let mut nodes: Vec<GrainNode> = model.nodes().iter().map(half).collect();
+    change(&mut nodes);
+    model.with_along(Some(nodes))
+}
+
+#[test]
+fn a_grain_along_the_lay_has_the_nodes_of_that_across_it() {
+    let model = along(&|_| ()).unwrap();
+    assert_eq!(model.along().unwrap().len(), 4);
+    let alone = model.along_model().unwrap();
+    assert_eq!(
+        (alone.nodes(), alone.rate(), alone.friction()),
+        (model.along().unwrap(), model.rate(), Some(0.3))
+    );
+    assert_eq!((alone.along(), alone.interpolation()), (None, model.interpolation()));
+    assert_eq!(model.with_along(None).unwrap(), two_resonances(&[0.05, 0.2], &[0.5, 1.0]));
+    // Speeds and forces that a file rounds at the tenth digit are the same.
+    assert!(along(&|n| n[1].speed.0 *= 1.0 + 1e-10).is_ok());
+    let error = |change: &dyn Fn(&mut Vec<GrainNode>)| along(change).unwrap_err();
+    assert_eq!(error(&|n| n.truncate(3)), TextureModelError::AlongCount { n: 3, expected: 4 });
+    assert_eq!(error(&|n| n.clear()), TextureModelError::AlongCount { n: 0, expected: 4 });
+    let differs = |error: TextureModelError, named: &str, of: usize| {
+        let TextureModelError::Along { what, index, .. } = error else { panic!("{error:?}") };
+        assert_eq!((what, index), (named, of));
+    };
+    differs(error(&|n| n[2].speed.0 *= 0.999_999), "speed in m/s", 2);
+    differs(error(&|n| n[3].force.0 *= 1.000_001), "force in N", 3);
+    differs(error(&|n| n.swap(0, 1)), "force in N", 0);
+    differs(error(&|n| n.iter_mut().for_each(|n| n.lsf.truncate(4))), "order", 0);
+    assert_eq!(arma(4, 0).with_along(Some(vec![node(0.1, &[1.0])])), Err(TextureModelError::AlongPublished));
+}
+
+#[test]
+fn bad_numbers_along_the_lay_are_named_as_such() {
+    let inner = |change: &dyn Fn(&mut Vec<GrainNode>)| match along(change).unwrap_err() {
+        TextureModelError::InAlong(error) => *error,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(inner(&|n| n[1].lsf.swap(0, 1)), TextureModelError::Frequencies { index: 1 });
+    assert!(matches!(inner(&|n| n[2].level_mps2 = f64::NAN), TextureModelError::Value { index: 2, .. }));
+    let crowded = |node: &mut GrainNode| {
+        node.lsf.iter_mut().zip(1..).for_each(|(w, i)| *w = 1.001 * MIN_LSF_GAP * f64::from(i));
+    };
+    // Six frequencies at the minimum distance grow in the renderer.
+    assert_eq!(inner(&|n| crowded(&mut n[0])), TextureModelError::Unstable { index: 0 });
+}
+
+#[test]
+fn layers_are_taken_over_and_the_grains_stay() {
+    let tap = Tap { frequency: Hertz(180.0), decay_per_sec: 90.0, amplitude_mps2: 4.0 };
+    let stick_slip = StickSlip { static_ratio: 1.5, stribeck_speed: MetersPerSecond(0.02) };
+    let layered = two_resonances(&[0.1], &[1.0])
+        .with_tap(Some(tap))
+        .with_stick_slip(Some(stick_slip))
+        .with_turn_rad(0.5);
+    let model = along(&|_| ()).unwrap();
+    let both = model.clone().with_layers_of(&layered);
+    assert_eq!((both.tap(), both.stick_slip(), both.turn_rad()), (Some(tap), Some(stick_slip), 0.5));
+    assert_eq!(
+        (both.along(), both.nodes(), both.friction()),
+        (model.along(), model.nodes(), model.friction())
+    );
+}
+
+#[test]
+fn rotations_stay_within_half_a_turn() {
+    let turned = |turn_rad: f64| two_resonances(&[0.1], &[1.0]).with_turn_rad(turn_rad).turn_rad();
+    for same in [0.0, 1.0, -3.0, PI, -PI] {
+        assert_eq!(turned(same), same);
+    }
+    assert!((turned(TAU + 0.25) - 0.25).abs() < 1e-12 && (turned(-4.0) - (TAU - 4.0)).abs() < 1e-12);
+    for bad in [f64::NAN, f64::INFINITY] {
+        assert_eq!(turned(bad), 0.0);
+    }
 }

@@ -1,8 +1,12 @@
 //! Texture in the form that the renderer uses: `f32`, with triangles small enough for an accurate level.
 
-use shagreen_synth::texture::{Excitation, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, Triangle};
+use std::sync::Arc;
+
+use shagreen_synth::stick_slip::Friction;
+use shagreen_synth::texture::{Along, Excitation, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, Triangle};
 
 use crate::maths::triangulation::weights_at;
+use crate::texture::height_map::HeightMapLevels;
 use crate::texture::plane::Plane;
 use crate::texture::plane::refined::{Refined, Vertex};
 use crate::texture::plane::values::Strength;
@@ -20,7 +24,12 @@ pub struct Prepared {
     /// One excitation for each node, or none at all.
     excitations: Vec<Excitation>,
     triangles: Vec<Triangle>,
+    /// Nodes and triangles of the grain along the lay.
+    along: Option<(Vec<Node>, Vec<Triangle>)>,
+    turn_rad: f32,
     relief: Option<ReliefOctaves>,
+    height_map: Option<Arc<HeightMapLevels>>,
+    friction: Option<Friction>,
 }
 
 impl Plane {
@@ -30,20 +39,30 @@ impl Plane {
     /// Triangles are subdivided where a quadratic through these gains would miss the level, or where they do not
     /// approximate the radial basis closely enough.
     pub fn prepare(&self) -> Prepared {
-        let points = self.triangulation.points().iter().zip(&self.vertices);
-        let vertices = points.map(|(at, values)| Vertex { at: *at, values: values.clone() }).collect();
-        let refined = Refined::new(vertices, &self.triangulation, self.radial.as_ref());
+        let refined = self.refined();
+        let along = self.along().map(Self::refined);
         Prepared {
             rate_hz: self.rate.0 as f32,
             order: self.vertices[0].lsf.len(),
             ma_order: self.vertices[0].ma_lsf.len(),
             speed_max_mps: self.speed_max_mps as f32,
             force_max_n: self.force_max_n as f32,
-            nodes: refined.vertices.iter().map(node).collect(),
+            nodes: nodes(&refined),
             excitations: refined.vertices.iter().filter_map(excitation).collect(),
-            triangles: (0..refined.triangles.len()).map(|index| triangle(&refined, index)).collect(),
-            relief: self.relief.as_ref().map(|relief| relief.octaves()),
+            triangles: triangles(&refined),
+            along: along.map(|along| (nodes(&along), triangles(&along))),
+            turn_rad: self.surface.turn_rad as f32,
+            relief: self.surface.relief.as_ref().map(|relief| relief.octaves()),
+            height_map: self.surface.height_map.as_ref().map(|height_map| height_map.prepare()),
+            friction: self.surface.friction,
         }
+    }
+
+    /// Triangles over the nodes, without those along the lay.
+    fn refined(&self) -> Refined<'_> {
+        let points = self.triangulation.points().iter().zip(&self.vertices);
+        let vertices = points.map(|(at, values)| Vertex { at: *at, values: values.clone() }).collect();
+        Refined::new(vertices, &self.triangulation, self.radial.as_ref())
     }
 }
 
@@ -64,7 +83,11 @@ impl Prepared {
             nodes: &self.nodes,
             excitations: &self.excitations,
             triangles: &self.triangles,
+            along: self.along.as_ref().map(|(nodes, triangles)| Along { nodes, triangles }),
+            turn_rad: self.turn_rad,
             relief: self.relief.as_ref().map(ReliefOctaves::view),
+            height_map: self.height_map.as_deref().map(HeightMapLevels::view),
+            friction: self.friction,
         }
     }
 
@@ -73,6 +96,14 @@ impl Prepared {
         // Every valid model gives parts that the renderer accepts; a property test checks this.
         Texture::checked_before(self.parts())
     }
+}
+
+fn nodes(refined: &Refined<'_>) -> Vec<Node> {
+    refined.vertices.iter().map(node).collect()
+}
+
+fn triangles(refined: &Refined<'_>) -> Vec<Triangle> {
+    (0..refined.triangles.len()).map(|index| triangle(refined, index)).collect()
 }
 
 fn node(vertex: &Vertex) -> Node {

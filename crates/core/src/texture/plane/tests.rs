@@ -10,6 +10,7 @@ use proptest::prelude::{Just, Strategy, prop_assert, prop_oneof, proptest};
 use proptest::strategy::ValueTree as _;
 use proptest::test_runner::TestRunner;
 use shagreen_synth::contact::Contact as SynthContact;
+use shagreen_synth::direction::Direction;
 use shagreen_synth::texture::{Parts, Texture};
 use std::f64::consts::PI;
 
@@ -108,7 +109,7 @@ fn wild(seed: u64) -> TextureModel {
 /// Level difference in dB between the renderer's evaluation and the model.
 fn level_error_db(plane: &Plane, prepared: &Prepared, contact: Contact) -> f64 {
     let (speed_mps, force_n) = (contact.speed.0 as f32, contact.force.0 as f32);
-    let got = prepared.view().evaluate(SynthContact { speed_mps, force_n }, &mut 0);
+    let got = prepared.view().evaluate(SynthContact { speed_mps, force_n }, Direction::UNKNOWN, &mut [0; 2]);
     20.0 * (f64::from(got.sigma_mps2) / plane.at(contact).excitation_variance().sqrt()).log10()
 }
 
@@ -198,7 +199,7 @@ proptest! {
                 force: Newtons(at[1] * model.force_max().0),
             };
             let (speed_mps, force_n) = (contact.speed.0 as f32, contact.force.0 as f32);
-            let got = prepared.view().evaluate(SynthContact { speed_mps, force_n }, &mut 0);
+            let got = prepared.view().evaluate(SynthContact { speed_mps, force_n }, Direction::UNKNOWN, &mut [0; 2]);
             prop_assert!(got.sigma_mps2.is_finite() && plane.at(contact).level_mps2.is_finite());
         }
     }
@@ -213,8 +214,8 @@ proptest! {
             let prepared = plane.prepare();
             prop_assert!(is_accepted(&prepared));
             let view = prepared.view();
-            let mut hint = 0;
-            let got = view.evaluate(SynthContact { speed_mps: (mm_per_s * 1e-3) as f32, force_n: force as f32 }, &mut hint);
+            let at = SynthContact { speed_mps: (mm_per_s * 1e-3) as f32, force_n: force as f32 };
+            let got = view.evaluate(at, Direction::UNKNOWN, &mut [0; 2]);
             let contact = Contact::from_mm_per_s_and_n(mm_per_s, force);
             let grain = plane.at(contact);
             // Weights in f32: the maps have slopes of a hundred, and rounding errors of a hundred times 6e-8.
@@ -231,5 +232,6 @@ proptest! {
     }
 }
 
+mod direction;
 mod published;
 mod radial;

@@ -52,6 +52,14 @@ impl Values {
         }
     }
 
+    /// Mixture of these values, measured across the lay of a texture, with those measured along it, whose share is 0..1.
+    /// Line spectral frequencies and squared level are linear in the share.
+    pub(super) fn mixed_with_along(&self, along: &Self, share: f64) -> Self {
+        let power = (1.0 - share) * self.level_mps2().powi(2) + share * along.level_mps2().powi(2);
+        let strength = Strength::Level { level_mps2: power.sqrt() };
+        Self { strength, ..Self::mean(&[(self, 1.0 - share), (along, share)]) }
+    }
+
     /// Natural logarithm of the filter's power gain.
     pub(super) fn ln_gain(&self) -> f64 {
         self.power_gain().ln().min(HIGHEST_LN_GAIN)

@@ -137,8 +137,8 @@ impl Hand for BackAndForth {
         Contact::from_mm_per_s_and_n(100.0, 1.0)
     }
 
-    fn place_m_at(&mut self, time_secs: f64) -> Option<f64> {
-        Some(0.005 + 0.1 * (self.0 - (time_secs - self.0).abs()))
+    fn place_m_at(&mut self, time_secs: f64) -> Option<[f64; 2]> {
+        Some([0.005 + 0.1 * (self.0 - (time_secs - self.0).abs()), 0.0])
     }
 }
 
@@ -231,3 +231,5 @@ fn at_its_own_speed_a_recording_comes_back() {
     let best = (0..4).map(snr).fold(f64::MIN, f64::max);
     assert!(best > 15.0, "{best} dB");
 }
+
+mod direction;

@@ -408,3 +408,29 @@ fn a_repeated_stroke_goes_on_where_its_tempo_changes_and_waits_for_a_persons_han
     run(&mut player, 1);
     assert!((player.touch().x_m - 0.2 * TICK as f32).abs() < 1e-6);
 }
+
+#[test]
+fn both_coordinates_of_a_stroke_are_followed() {
+    let mut player = Player::new();
+    player.set_input(Input::Hand(HAND));
+    for _ in 0..50 {
+        let (_, touch) = run(&mut player, 1)[0];
+        let place = player.place();
+        assert_eq!([place.x_m, place.y_m], [touch.x_m, touch.y_m].map(f64::from));
+    }
+    let n_jumps = player.place().n_jumps;
+    player.set_input(Input::Live);
+    for i in 0..100 {
+        let y_m = 5e-4 * i as f32;
+        let contact = Contact { speed_mps: 0.1, force_n: 1.0 };
+        report(&mut player, Touch { x_m: 0.01, y_m, contact });
+        run(&mut player, 1);
+        let place = player.place();
+        // The first reports serve to estimate the velocity.
+        let expected_m = f64::from(y_m) + if i < 20 { 0.0 } else { 5e-4 };
+        let tolerance_m = if i < 20 { 2e-3 } else { 1e-4 };
+        assert!((place.x_m - 0.01).abs() < 1e-6, "{place:?} at {i}");
+        assert!((place.y_m - expected_m).abs() < tolerance_m, "{place:?} for {expected_m} m at {i}");
+    }
+    assert!(player.place().n_jumps > n_jumps, "a change of input is a jump");
+}

@@ -12,7 +12,8 @@ use shagreen_synth::tap::Tap;
 use super::{CONFIG, play};
 use crate::controls::{Drive, Input};
 use crate::engine::{EngineConfig, new};
-use crate::texture::tests::with_lsf;
+use crate::texture::OwnedTexture;
+use crate::texture::tests::{layered, with_lsf};
 use crate::touch::Touch;
 use crate::track::{PenSample, Track};
 
@@ -36,11 +37,27 @@ fn lsf_of(gaps: &[f32]) -> Vec<f32> {
     gaps[..gaps.len() - 1].iter().map(next).collect()
 }
 
+/// Rotation, height, kinetic coefficient and static ratio of a texture with all layers; `None` has none.
+type Layers = Option<[f32; 4]>;
+
+fn any_layers() -> impl Strategy<Value = Layers> {
+    let layers = (-10.0_f32..10.0, -0.1_f32..0.1, 0.0_f32..20.0, 0.0_f32..8.0);
+    prop::option::of(layers.prop_map(|(turn, height, kinetic, ratio)| [turn, height, kinetic, ratio]))
+}
+
+/// A texture with these layers, if it is valid.
+fn with_layers(texture: OwnedTexture, layers: Layers) -> Option<OwnedTexture> {
+    match layers {
+        None => Some(texture),
+        Some(layers) => layered(&texture, layers).ok(),
+    }
+}
+
 /// One thing that someone, or a faulty device, does to a running engine.
 #[derive(Clone, Debug)]
 enum Abuse {
-    /// Loads a texture of these gaps and level, and fades to it.
-    Load(Vec<f32>, f32),
+    /// Loads a texture of these gaps, level and layers, and fades to it.
+    Load(Vec<f32>, f32, Layers),
     /// Fades out the texture with this index.
     Unload(usize),
     Tap(f32, f32, f32),
@@ -63,7 +80,7 @@ fn any_number() -> impl Strategy<Value = f32> {
 fn any_abuse() -> impl Strategy<Value = Abuse> {
     let gaps = prop::collection::vec(1e-4_f32..1.0, 2..=33);
     prop_oneof![
-        2 => (gaps, 0.0_f32..1e6).prop_map(|(gaps, level)| Abuse::Load(gaps, level)),
+        2 => (gaps, 0.0_f32..1e6, any_layers()).prop_map(|(gaps, level, layers)| Abuse::Load(gaps, level, layers)),
         1 => (0_usize..8).prop_map(Abuse::Unload),
         1 => (any_number(), any_number(), any_number()).prop_map(|(f, b, a)| Abuse::Tap(100.0 * f, b, a)),
         6 => (any_number(), any_number(), any_number()).prop_map(|(x, v, f)| Abuse::Touch(x, v, f)),
@@ -80,9 +97,10 @@ fn stroke() -> Track {
         PenSample {
             time_secs,
             x_m: 0.3 * time_secs,
-            y_m: 0.0,
             force_n: if touching { 1.0 } else { 0.0 },
             touching,
+            impact_mps: Some(0.3),
+            ..PenSample::default()
         }
     };
     Track::new(&(0..150).map(sample).collect::<Vec<_>>()).unwrap()
@@ -98,6 +116,7 @@ proptest! {
         level in 0.0_f32..1e6,
         tap in (0.0_f32..3000.0, -10.0_f32..1e3, -1e30_f32..1e30),
         coil in (30.0_f64..300.0, 0.5_f64..3000.0, 0.01_f64..30.0),
+        layers in any_layers(),
     ) {
         let lsf = lsf_of(&gaps);
         let (frequency_hz, q, lowest_hz) = coil;
@@ -105,6 +124,7 @@ proptest! {
         let drive = DriveConfig { inverse: Some(inverse), look_ahead_secs: 0.002, ..DriveConfig::proportional(5.0, 0.9) };
         let (mut handle, mut engine) = new(EngineConfig { model_rate_hz, drive, ..CONFIG }).unwrap();
         let Ok(texture) = with_lsf(model_rate_hz, level, &lsf) else { return Ok(()) };
+        let Some(texture) = with_layers(texture, layers) else { return Ok(()) };
         let id = handle.load(texture).unwrap();
         handle.set_mix(Mix::solo(id)).unwrap();
         handle.set_tap(Tap { frequency_hz: tap.0, decay_per_sec: tap.1, amplitude_mps2: tap.2 });
@@ -129,8 +149,10 @@ proptest! {
         for step in steps {
             let mut frames = 480;
             match step {
-                Abuse::Load(gaps, level) => {
-                    if let Ok(texture) = with_lsf(1000.0, level, &lsf_of(&gaps)) && let Ok(id) = handle.load(texture) {
+                Abuse::Load(gaps, level, layers) => {
+                    let texture = with_lsf(1000.0, level, &lsf_of(&gaps)).ok();
+                    let texture = texture.and_then(|texture| with_layers(texture, layers));
+                    if let Some(texture) = texture && let Ok(id) = handle.load(texture) {
                         loaded.push(id);
                         handle.set_mix(Mix::solo(id)).unwrap();
                     }

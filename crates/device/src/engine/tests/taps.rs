@@ -37,14 +37,15 @@ fn a_landing_sounds_from_the_first_sample_of_the_next_block() {
         let expected = 0.5 * (-80.0 * t).exp() * (std::f64::consts::TAU * 200.0 * t).sin();
         assert!((f64::from(*x) - expected).abs() < 1e-5, "{x} for {expected} at {t}");
     }
-    // Holding the tip down is not a contact onset. Lifting and touching faster is one, and proportionally stronger.
+    // Holding the tip down is not a contact onset. Lifting and touching faster is one, and stronger by the law of Hertz
+    // contact.
     live.send(landed(0.6), Instant::now()).unwrap();
     assert!(peak(&play(&mut engine, 48_000, 480)) < 1e-2);
     live.send(Touch::default(), Instant::now()).unwrap();
     play(&mut engine, 480, 480);
-    live.land(landed(0.5), Instant::now(), Some(0.15)).unwrap();
+    live.land(landed(0.5), Instant::now(), Some(0.12)).unwrap();
     let strong = play(&mut engine, 4800, 480);
-    assert!((peak(&strong) / peak(&out) - 1.5).abs() < 1e-3);
+    assert!((peak(&strong) / peak(&out) - 1.2_f32.powf(1.2)).abs() < 1e-3);
     assert!(handle.status().latency.n_touches == 4);
     // Invalid impact speeds and contact bounce are not.
     play(&mut engine, 48_000, 480);
@@ -67,6 +68,14 @@ fn a_tap_beyond_the_output_is_reduced_before_the_limiter() {
     let reduced = peak(&play(&mut engine, 4800, 480));
     let linear = CONFIG.drive.linear_mps2() / CONFIG.drive.full_scale_mps2();
     assert!((0.8 * TAP_SHARE * linear..TAP_SHARE * linear).contains(&reduced), "{reduced}");
+    // A slower impact is weaker, and a faster one uses the rest of the range but no more.
+    for (impact_mps, share) in [(0.05, TAP_SHARE * 0.5_f32.powf(1.2)), (0.2, 1.0), (3.0, 1.0)] {
+        live.send(Touch::default(), Instant::now()).unwrap();
+        play(&mut engine, 4800, 480);
+        live.land(landed(0.5), Instant::now(), Some(impact_mps)).unwrap();
+        let landing = peak(&play(&mut engine, 4800, 480));
+        assert!((0.8 * share * linear..share * linear).contains(&landing), "{landing} at {impact_mps} m/s");
+    }
     assert_eq!(handle.status().limited_samples, 0);
 }
 

@@ -203,11 +203,13 @@ impl Reader {
 
     fn tell_engine(&mut self, moment: &TrackedSample, time: Instant) {
         let Some(live) = &mut self.live else { return };
-        let landing_mps = moment.landing.map(|landing| landing.speed_mps);
         // Without a known position there is no output, so another stylus may take over.
         let hovers = moment.touch.contact.force_n == 0.0 && moment.place_m.is_some();
-        let sent =
-            if hovers { live.hover(moment.touch, time) } else { live.land(moment.touch, time, landing_mps) };
+        let sent = if hovers {
+            live.hover(moment.touch, time)
+        } else {
+            live.land(moment.touch, time, moment.impact_mps)
+        };
         sent.ok(); // Full only when the output has stopped.
     }
 

@@ -147,6 +147,7 @@ fn a_stroke_is_felt_until_the_pen_is_unplugged_and_again_when_it_is_back() {
         seed: 5,
         drive: DriveConfig::proportional(4.0, 1.0),
         channels: ChannelMask::FIRST_TWO,
+        friction: None,
         take_over: false,
     };
     let loud = Arc::new(Mutex::new(0.0_f32));

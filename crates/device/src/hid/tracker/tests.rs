@@ -122,17 +122,24 @@ fn a_recorded_stretch_replays_as_it_was_felt() {
 #[test]
 fn a_tap_tells_its_landing() {
     let mut tracker = tracker();
-    let landings: Vec<_> = [0, 0, 400, 1200, 2000, 2000, 2000, 0, 0]
+    let moments: Vec<_> = [0, 0, 400, 1200, 2000, 2000, 2000, 0, 0]
         .iter()
         .enumerate()
-        .filter_map(|(i, pressure)| {
+        .map(|(i, pressure)| {
             let switches = if *pressure > 0 { DOWN } else { HOVER };
-            tracker.report(0.004 * i as f64, &report(5000, 5000, *pressure, switches)).unwrap().landing
+            tracker.report(0.004 * i as f64, &report(5000, 5000, *pressure, switches)).unwrap()
         })
         .collect();
+    let landings: Vec<_> = moments.iter().filter_map(|moment| moment.landing).collect();
     assert_eq!(landings.len(), 1);
     // The force rises by 800 counts in 4 ms; the stiffness is 10 N/mm.
     let expected = 800.0 / 4095.0 * 4.016 / 0.004 / 1e4;
     assert!((f64::from(landings[0].speed_mps) / expected - 1.0).abs() < 1e-6 && !landings[0].is_from_height);
     assert!((landings[0].time_secs - 0.008).abs() < 1e-12);
+    // The first report of the contact has half of that rise, and a tap transient starts with it.
+    let known: Vec<bool> = moments.iter().map(|moment| moment.impact_mps.is_some()).collect();
+    assert_eq!(known, [false, false, true, false, false, false, false, false, false]);
+    let impact_mps = f64::from(moments[2].impact_mps.unwrap());
+    assert!((impact_mps - 0.5 * (0.1 + expected)).abs() < 1e-6, "{impact_mps}");
+    assert_eq!(moments[2].sample().unwrap().impact_mps, Some(impact_mps));
 }

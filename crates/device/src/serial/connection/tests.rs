@@ -27,7 +27,7 @@ use crate::serial::message::{Control, Mode, RunState, write_sensor};
 use crate::serial::receiver::{About, Receiver};
 use crate::serial::{SerialOptions, handshake, negotiation, open};
 use crate::status::LinkState;
-use crate::texture::tests::white;
+use crate::texture::tests::{rubbed, white};
 
 const ABOUT: About = About { has_control: true, has_sensor: true, name: "test board", ..About::STREAM };
 const HAND: Hand = Hand { path: Path::Circle, speed_mps: 0.5, force_n: 0.5, extent_m: 0.06 };
@@ -128,7 +128,7 @@ fn run_board(
             let status = receiver.status();
             let prefill = receiver.settings().map_or(u16::MAX, |settings| settings.prefill);
             let is_ready = match receiver.settings().map(|settings| settings.mode) {
-                Some(Mode::Stream) => {
+                Some(Mode::Stream | Mode::Friction) => {
                     status.queued > 0 && (status.state == RunState::Playing || status.queued >= prefill)
                 }
                 // Sixteen ticks per loop, whatever arrives.
@@ -316,6 +316,24 @@ fn control_reaches_a_board_that_renders() {
     let (_handle, _output, _heard) = start(&board, serial);
     // The board outputs the received speed, in units of 0.1 mm/s.
     wait_for("the speed must arrive", || board.play(1)[0].1 == 5000);
+}
+
+#[test]
+fn friction_reaches_a_display_that_renders_it_and_is_refused_by_another() {
+    let serial = SerialOptions { mode: Mode::Friction, ..PATIENT };
+    let board = Board::of(About { has_friction: true, ..ABOUT }, Vec::new(), Box::new(|_| {}));
+    let mut connection = open(&board.port, OPTIONS, serial).unwrap();
+    assert_eq!(connection.running.rate_hz(), 10_000);
+    let id = connection.handle.load(rubbed(white(2.0), 0.5)).unwrap();
+    connection.handle.set_mix(Mix::solo(id)).unwrap();
+    connection.handle.set_input(Input::Hand(HAND));
+    wait_for("the level must arrive", || (board.play(1)[0].1 - 16_384).abs() < 300);
+    assert!(board.play(2000).iter().all(|(_, level)| (level - 16_384).abs() < 600));
+    // Firmware from before this mode.
+    let board = Board::good();
+    let error = open(&board.port, OPTIONS, serial).unwrap_err();
+    assert_eq!(error.kind(), DeviceErrorKind::Unsupported);
+    assert!(error.message().contains("cannot render friction"), "{error}");
 }
 
 #[test]

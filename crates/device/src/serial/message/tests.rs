@@ -20,6 +20,18 @@ pub(in crate::serial) const CONFIGURE: Configure = Configure {
     full_scale_cmps2: 2000,
 };
 
+const FRICTION: Configure = Configure {
+    mode: Mode::Friction,
+    rate_hz: 10_000,
+    ceiling: 32_767,
+    window: 100,
+    prefill: 60,
+    report: 20,
+    fade: 30,
+    full_scale_cmps2: 0,
+    ..CONFIGURE
+};
+
 const STATUS: DeviceStatus = DeviceStatus {
     seq: 0x0210,
     config: 1,
@@ -40,6 +52,7 @@ const REPLY: HelloReply<'_> = HelloReply {
     has_stream: true,
     has_control: false,
     has_sensor: true,
+    has_friction: false,
     rate_min_hz: 1000,
     rate_max_hz: 8000,
     buffer: 256,
@@ -62,6 +75,7 @@ fn examples() -> Vec<String> {
     vec![
         host(HostMessage::Hello { nonce: 0x1234, version: 1 }),
         host(HostMessage::Configure(CONFIGURE)),
+        host(HostMessage::Configure(FRICTION)),
         hex(|wire| write_samples(0x0200, 3, &[0, 1, -1, 256], wire)),
         host(HostMessage::Control { seq: 5, run: 3, control }),
         host(HostMessage::Stop),
@@ -118,6 +132,7 @@ fn what_is_written_is_read() {
         HostMessage::Hello { nonce: 7, version: 200 },
         HostMessage::Configure(CONFIGURE),
         HostMessage::Configure(Configure { mode: Mode::Control, ..CONFIGURE }),
+        HostMessage::Configure(FRICTION),
         HostMessage::Samples { seq: 65_535, run: 255, samples },
         HostMessage::Control { seq: 0, run: 0, control },
         HostMessage::Stop,
@@ -131,6 +146,7 @@ fn what_is_written_is_read() {
     }
     device_round_trip(DeviceMessage::HelloReply(REPLY));
     device_round_trip(DeviceMessage::HelloReply(HelloReply { has_control: true, name: b"", ..REPLY }));
+    device_round_trip(DeviceMessage::HelloReply(HelloReply { has_friction: true, ..REPLY }));
     let sensor =
         DeviceMessage::Sensor { seq: 1, rate_hz: 2, time_us: 1 << 31, scale_umps2: 1 << 20, samples };
     device_round_trip(sensor);
@@ -164,7 +180,8 @@ fn what_is_short_or_means_nothing_is_malformed() {
     assert_eq!(host(0x03, &long[..=(2 * MAX_SAMPLES)]), Ok(()));
     assert_eq!(host(0x03, &long[..3 + 2 * MAX_SAMPLES]), Err(Malformed), "too many samples must be rejected");
     assert_eq!(host(0x02, &[0; 18]), Err(Malformed), "configuration 0 must be rejected");
-    assert_eq!(host(0x02, &[2; 18]), Err(Malformed), "an unknown mode must be rejected");
+    assert_eq!(host(0x02, &[2; 18]), Ok(()));
+    assert_eq!(host(0x02, &[3; 18]), Err(Malformed), "an unknown mode must be rejected");
 }
 
 proptest! {

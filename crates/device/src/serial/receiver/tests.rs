@@ -198,6 +198,22 @@ fn old_control_and_control_of_another_run_are_dropped() {
 }
 
 #[test]
+fn levels_of_friction_are_played_as_samples_without_a_sign() {
+    let mut receiver = Small::new(About { has_friction: true, ..About::STREAM });
+    tell(&mut receiver, HostMessage::Configure(Configure { mode: Mode::Friction, ..CONFIGURE }));
+    let run = receiver.status().run;
+    feed(&mut receiver, 0, run, &[12_000; 24]);
+    feed(&mut receiver, 24, run, &[-5000, 32_767, 0, 1]);
+    let played = play(&mut receiver, 28);
+    assert_eq!(played[..24], faded_in(12_000, 24));
+    assert_eq!(played[24..], [0, 29_490, 0, 1]);
+    // Controls are dropped in this mode.
+    let control = Control { speed_dmmps: 1, ..Control::default() };
+    tell(&mut receiver, HostMessage::Control { seq: 0, run, control });
+    assert_eq!((receiver.control(), receiver.status().dropped), (None, 1));
+}
+
+#[test]
 fn stop_hello_and_faults_fade_out() {
     let acts: [fn(&mut Small); 4] = [
         |receiver| tell(receiver, HostMessage::Stop),
@@ -221,7 +237,11 @@ fn stop_hello_and_faults_fade_out() {
 fn what_it_cannot_do_is_a_fault_and_what_is_too_much_is_cut() {
     let mut receiver = Small::new(About::STREAM);
     sent(&mut receiver);
-    for bad in [Configure { mode: Mode::Control, ..CONFIGURE }, Configure { rate_hz: 999, ..CONFIGURE }] {
+    for bad in [
+        Configure { mode: Mode::Control, ..CONFIGURE },
+        Configure { mode: Mode::Friction, ..CONFIGURE },
+        Configure { rate_hz: 999, ..CONFIGURE },
+    ] {
         tell(&mut receiver, HostMessage::Configure(bad));
         assert_eq!((sent(&mut receiver), receiver.status().config), (Some("fault"), 0));
     }

@@ -74,6 +74,7 @@ fn what_render_wrote_comes_back_with_its_trace() {
         seconds: 0.003,
         texture: None,
         at: None,
+        shape: None,
         clamped: false,
         extrapolated: false,
         blend: "shared".into(),

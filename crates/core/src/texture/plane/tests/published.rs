@@ -10,6 +10,7 @@ use proptest::bool;
 use proptest::collection::vec;
 use proptest::prelude::{Strategy, prop_assert, proptest};
 use shagreen_synth::contact::Contact as SynthContact;
+use shagreen_synth::direction::Direction;
 use shagreen_synth::texture::Texture;
 use std::f64::consts::{PI, TAU};
 
@@ -146,7 +147,7 @@ proptest! {
             let speed = MetersPerSecond(at[0] * model.speed_max().0);
             let contact = Contact { speed, force: Newtons(at[1] * model.force_max().0) };
             let (speed_mps, force_n) = (contact.speed.0 as f32, contact.force.0 as f32);
-            let got = prepared.view().evaluate(SynthContact { speed_mps, force_n }, &mut 0);
+            let got = prepared.view().evaluate(SynthContact { speed_mps, force_n }, Direction::UNKNOWN, &mut [0; 2]);
             prop_assert!(got.sigma_mps2.is_finite() && plane.at(contact).level_mps2.is_finite());
         }
     }
@@ -159,7 +160,7 @@ proptest! {
         prop_assert!(is_accepted(&prepared));
         let contact = Contact::from_mm_per_s_and_n(mm_per_s, force);
         let at = SynthContact { speed_mps: (mm_per_s * 1e-3) as f32, force_n: force as f32 };
-        let (got, want) = (prepared.view().evaluate(at, &mut 0), plane.at(contact));
+        let (got, want) = (prepared.view().evaluate(at, Direction::UNKNOWN, &mut [0; 2]), plane.at(contact));
         // Between three silent corners the texture is silent; near silence, rounding errors of the weights are
         // relatively large.
         if want.level_mps2 > 1e-3 {

@@ -8,6 +8,7 @@ use crate::texture::{GrainNode, Interpolation, TextureModel};
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use proptest::prelude::{prop, prop_assert, proptest};
 use shagreen_synth::contact::Contact as SynthContact;
+use shagreen_synth::direction::Direction;
 use std::f64::consts::PI;
 
 fn radial(model: TextureModel) -> TextureModel {
@@ -129,7 +130,8 @@ fn triangles_stand_for_the_basis() {
                 force: Newtons(y * model.force_max().0),
             };
             let at = SynthContact { speed_mps: contact.speed.0 as f32, force_n: contact.force.0 as f32 };
-            let (got, want) = (prepared.view().evaluate(at, &mut 0), plane.at(contact));
+            let (got, want) =
+                (prepared.view().evaluate(at, Direction::UNKNOWN, &mut [0; 2]), plane.at(contact));
             let lsf: Vec<f64> = got.lsf[..model.order()].iter().map(|w| f64::from(*w)).collect();
             let level_db = 20.0 * (f64::from(got.level_mps2) / want.level_mps2).log10();
             let sigma = f64::from(got.sigma_mps2);

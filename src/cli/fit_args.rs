@@ -1,0 +1,52 @@
+//! Options and figures of fitting a texture model to recordings.
+
+use serde_json::{Value, json};
+use shagreen_core::recording::fit::{FitOptions, MODEL_RATES_HZ, TapFit};
+use shagreen_core::texture::{Interpolation, MAX_ORDER};
+use shagreen_core::units::Hertz;
+
+/// Options of a fit.
+#[derive(clap::Args)]
+pub(crate) struct FitArgs {
+    /// Model rate (sample rate of the model), in Hz. Default: selected from the bandwidth of the recordings.
+    #[arg(long, value_name = "HZ", value_parser = parse_rate)]
+    rate: Option<f64>,
+    /// Model order (order of the linear predictor). Default: selected by the Bayesian information criterion.
+    #[arg(long, value_parser = clap::value_parser!(u8).range(1..=MAX_ORDER as i64))]
+    order: Option<u8>,
+    /// Interpolation of the model between the measured speeds and forces.
+    #[arg(long, value_name = "MODE", value_parser = ["barycentric", "radial-basis"], default_value = "barycentric")]
+    interpolation: String,
+}
+
+impl FitArgs {
+    /// Returns the options of the fit.
+    pub(crate) fn options(&self) -> FitOptions {
+        FitOptions {
+            rate: self.rate.map(Hertz),
+            order: self.order.map(usize::from),
+            interpolation: match self.interpolation.as_str() {
+                "radial-basis" => Interpolation::RadialBasis,
+                _ => Interpolation::Barycentric,
+            },
+        }
+    }
+}
+
+/// Returns the figures of a fitted tap transient; null without one.
+pub(crate) fn tap_json(tap: Option<&TapFit>) -> Value {
+    tap.map_or(Value::Null, |fit| {
+        json!({
+            "frequency_hz": fit.tap.frequency.0,
+            "decay_per_s": fit.tap.decay_per_sec,
+            "amplitude_mps2": fit.tap.amplitude_mps2,
+            "landings": fit.n_landings,
+            "explained": fit.explained,
+        })
+    })
+}
+
+fn parse_rate(text: &str) -> Result<f64, String> {
+    let rate = MODEL_RATES_HZ.into_iter().find(|rate| rate.to_string() == text);
+    rate.ok_or_else(|| format!("it must be {} Hz", MODEL_RATES_HZ.map(|rate| rate.to_string()).join(" or ")))
+}
