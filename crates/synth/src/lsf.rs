@@ -95,7 +95,7 @@ fn multiply(half: &mut [[f64; 2]; MAX_FACTORS + 1], k: usize, c: [f64; 2]) {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     extern crate std;
     use super::{ar_from_lsf, minus_two_cos};
     use proptest::prelude::{prop, prop_assert, proptest};
@@ -127,6 +127,17 @@ mod tests {
         (1..=lsf.len()).map(|i| 0.5 * (q[i] + p[i])).collect()
     }
 
+    /// Line spectral frequencies with these gaps, in any proportion; one fewer than gaps.
+    pub(crate) fn lsf_of_gaps(gaps: &[f64]) -> Vec<f32> {
+        let total: f64 = gaps.iter().sum();
+        let mut w = 0.0;
+        let next = |gap: &f64| {
+            w += gap * core::f64::consts::PI / total;
+            w as f32
+        };
+        gaps[..gaps.len() - 1].iter().map(next).collect()
+    }
+
     #[test]
     fn cosine_is_within_its_bound() {
         for i in 0..=10_000 {
@@ -146,12 +157,7 @@ mod tests {
     proptest! {
         #[test]
         fn agrees_with_the_full_expansion(gaps in prop::collection::vec(0.02_f64..1.0, 2..33)) {
-            let total: f64 = gaps.iter().sum();
-            let mut w = 0.0;
-            let lsf: Vec<f32> = gaps[..gaps.len() - 1]
-                .iter()
-                .map(|g| { w += g * core::f64::consts::PI / total; w as f32 })
-                .collect();
+            let lsf = lsf_of_gaps(&gaps);
             let mut ar = vec![f32::NAN; lsf.len()];
             ar_from_lsf(&lsf, &mut ar);
             let wide: Vec<f64> = lsf.iter().map(|&w| f64::from(w)).collect();

@@ -38,9 +38,9 @@ mod tests {
     extern crate std;
     use super::ln_power_gain;
     use crate::lsf::ar_from_lsf;
+    use crate::lsf::tests::lsf_of_gaps;
     use proptest::prelude::{prop, prop_assert, proptest};
     use std::vec;
-    use std::vec::Vec;
 
     #[test]
     fn orders_one_and_two_in_closed_form() {
@@ -75,12 +75,7 @@ mod tests {
     proptest! {
         #[test]
         fn agrees_with_the_impulse_response(gaps in prop::collection::vec(0.2_f64..1.0, 2..33)) {
-            let total: f64 = gaps.iter().sum();
-            let mut w = 0.0;
-            let lsf: Vec<f32> = gaps[..gaps.len() - 1]
-                .iter()
-                .map(|g| { w += g * core::f64::consts::PI / total; w as f32 })
-                .collect();
+            let lsf = lsf_of_gaps(&gaps);
             let mut ar = vec![0.0; lsf.len()];
             ar_from_lsf(&lsf, &mut ar);
             let gain = f64::from(ln_power_gain(&ar).unwrap());

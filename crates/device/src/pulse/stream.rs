@@ -40,8 +40,8 @@ pub(crate) struct PulseStream {
 }
 
 impl PulseStream {
-    /// Starts a thread for the stream of `socket`, for the `direction` "input" or "output". It runs until the connection
-    /// ends, and is told whether it is being closed.
+    /// Starts a thread for the stream of `socket`, for the `direction` "input" or "output". The thread calls `run`, which
+    /// returns when the connection ends; its argument says whether the stream is being closed.
     pub(super) fn start(
         socket: UnixStream,
         direction: &str,
