@@ -55,9 +55,10 @@ fn real_strokes_sound_where_they_touch_and_rise_with_speed() {
     let bench = Bench::new();
     for (name, mm_per_unit, secs_per_unit) in [("raw", 0.005, 0.001), ("normalised", 1.0, 1.0)] {
         let Some(path) = shared_data(&format!("pen-strokes/stroke-{name}.svc")) else { return };
-        bench.json(&format!("render --at 30,70 --stroke {} -o out.wav", path.display()));
+        // Without friction: stick-slip is louder below its critical speed than above.
+        bench.json(&format!("render --at 30,70 --shape friction=0 --stroke {} -o out.wav", path.display()));
         let text = std::fs::read_to_string(path).unwrap();
-        // In handwriting the force varies too: 0.91 and 0.94 were measured. For unrelated level and speed, 999 of 1000
+        // In handwriting the force varies too: 0.89 and 0.94 were measured. For unrelated level and speed, 999 of 1000
         // draws of 34 windows stay below 0.5.
         check_stroke(&bench, &strokes::read(&text, mm_per_unit, secs_per_unit), 0.5);
     }

@@ -65,8 +65,8 @@ pub(crate) struct Window {
     pub(crate) rms: f64,
 }
 
-/// Returns the windows of `secs` during which the tip always touches (`touching`), or is lifted and was lifted for
-/// `secs` before.
+/// Returns the windows of `secs` during which, and for `secs` before which, the tip always touches (`touching`) or is
+/// lifted: the tap transient of a landing and the fade after lift-off lie in none of them.
 pub(crate) fn windows(
     samples: &[Sample],
     signal: &[f64],
@@ -86,11 +86,12 @@ pub(crate) fn windows(
     while from + secs <= end {
         let to = from + secs;
         let inside = within(from, to);
-        let lead = if touching { 0.0 } else { secs };
-        let all = within(from - lead, to);
+        let all = within(from - secs, to);
         let steady = all.len() >= 4 && all.iter().all(|sample| sample.touching == touching);
+        // A recording may have no samples of a lifted pen: a gap is a lift.
+        let starts = all.first().is_some_and(|first| first.time_secs - (from - secs) < 0.04);
         let gapless = all.windows(2).all(|pair| pair[1].time_secs - pair[0].time_secs < 0.04);
-        if steady && gapless && inside.len() >= 4 {
+        if steady && starts && gapless && inside.len() >= 4 {
             let length: f64 = inside
                 .windows(2)
                 .map(|pair| (pair[1].x_mm - pair[0].x_mm).hypot(pair[1].y_mm - pair[0].y_mm))
