@@ -18,8 +18,10 @@ use shagreen_core::maths::rng::Random;
 use shagreen_core::space::authoring::{Authored, Authoring, Blending, Layers, Models, Outside, Weights};
 use shagreen_core::space::{Space, SpacePoint};
 use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::height_map::{HeightMap, HeightMapOptions};
 use shagreen_core::texture::plane::Plane;
 use shagreen_core::texture::{GrainNode, TextureModel};
+use shagreen_formats::library::TextureEntry;
 use shagreen_formats::starter::starter_library;
 
 fn main() {
@@ -47,6 +49,18 @@ fn main() {
             }
         });
     }
+    let authoring = with_height_maps();
+    bench(
+        "re-blend with two height maps and prepare for rendering, 25 textures, field",
+        100.0,
+        "drag",
+        || {
+            for i in 0..100 {
+                let authored = authoring.author(dragged(i), &Blending::default()).expect("no texture");
+                black_box(Plane::new(model(&authored)).prepare());
+            }
+        },
+    );
 }
 
 fn model(authored: &Authored) -> &TextureModel {
@@ -73,10 +87,32 @@ fn authoring(n: usize) -> Authoring {
         Some(texture) => texture.at(),
         None => SpacePoint::new(100.0 * random.uniform(), 100.0 * random.uniform()).ok(),
     };
-    let space = Space::new(&(0..n).map(place).collect::<Vec<_>>()).expect("no space");
+    authoring_of(&models, &(0..n).map(place).collect::<Vec<_>>())
+}
+
+/// The starter library with height maps of different sides on two of its textures, of 256 heights along a side that need all
+/// octaves.
+fn with_height_maps() -> Authoring {
+    let library = starter_library().expect("no starter library");
+    let mut models: Vec<TextureModel> =
+        library.textures.iter().map(|texture| texture.model.clone()).collect();
+    let mut random = Random::new(9);
+    for (model, side_m) in models.iter_mut().zip([0.02, 0.023]) {
+        let heights_m = (0..256 * 256).map(|_| 1e-6 * random.normal()).collect();
+        let map = HeightMap::new(heights_m, side_m, HeightMapOptions::HARD_PLASTIC).expect("no height map");
+        *model = model.clone().with_height_map(Some(Arc::new(map)));
+    }
+    let places: Vec<Option<SpacePoint>> = library.textures.iter().map(TextureEntry::at).collect();
+    authoring_of(&models, &places)
+}
+
+/// Interpolation between textures at these positions, with prepared height maps.
+fn authoring_of(models: &[TextureModel], places: &[Option<SpacePoint>]) -> Authoring {
+    let space = Space::new(places).expect("no space");
     let planes: Vec<Plane> = models.iter().map(Plane::new).collect();
     let layers = models.iter().zip(&planes).map(|(model, plane)| Some(Layers::of(model, plane)));
     let models = Models::new(&space, &layers.collect::<Vec<_>>()).expect("textures differ in rate");
+    models.prepare_height_maps();
     Authoring::new(space).with_models(Arc::new(models))
 }
 

@@ -32,6 +32,11 @@ pub(crate) struct BlendArgs {
 }
 
 impl BlendArgs {
+    /// Whether the arguments pin the texture with this identifier.
+    pub(crate) fn pins(&self, id: &str) -> bool {
+        self.lock.iter().any(|locked| locked == id)
+    }
+
     /// Returns the interpolation options that the arguments specify.
     pub(crate) fn blending(&self, library: &Library) -> anyhow::Result<Blending> {
         let index = |id: &String| {

@@ -11,13 +11,13 @@ use shagreen_core::words::counted;
 use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::codec_stream::read_stream;
 use shagreen_formats::codec_tables::built_in_codebooks;
-use shagreen_formats::wav::{SidecarV1, sidecar_path, write_wav};
+use shagreen_formats::wav::{SidecarV1, write_wav};
 
 use crate::cli::output;
 use crate::cli::progress::Progress;
 use crate::cli::wav_name::check_wav_name;
 use shagreen_studio::file;
-use shagreen_studio::replace::{refuse_foreign_signal, refuse_inputs};
+use shagreen_studio::replace::{refuse_foreign_signal, refuse_signal_over_inputs};
 
 /// Decodes a stream of `codec encode` to a WAV file of 32-bit floats in m/s² at 2000 Hz, with a sidecar file (.json).
 /// `quality` compares it with the original signal.
@@ -39,8 +39,7 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     check_wav_name(&args.out)?;
-    let beside = sidecar_path(&args.out);
-    refuse_inputs(&[&args.out, &beside], &[Some(&args.stream)])?;
+    refuse_signal_over_inputs(&args.out, &[Some(&args.stream)])?;
     refuse_foreign_signal(&args.out)?;
     let progress = Progress::endless("decoding the stream");
     let bytes = file::read_file(&args.stream, FileKind::Recording)?;

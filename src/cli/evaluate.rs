@@ -12,6 +12,7 @@ use shagreen_core::texture::blend::Mode;
 use shagreen_core::words::counted;
 use shagreen_formats::evaluation_report::{
     TABLE, best, evaluation_figures, evaluation_report, evaluation_source, figure_name, method_id,
+    position_caveat,
 };
 use shagreen_formats::library::Library;
 
@@ -29,6 +30,10 @@ use shagreen_studio::file;
 /// Only textures strictly inside the convex hull of the others are evaluated. Spectra are compared at nine combinations
 /// of speed and force, in 40 frequency channels (20 to 480 Hz). The baseline is a copy of the nearest texture;
 /// interpolation should have a lower error. The errors are computed from signals, not from human ratings.
+///
+/// If positions were computed from the textures themselves (physical labels, estimates), the position of a left-out
+/// texture contains part of its answer. The shape error excludes the overall level: it compares the shape of the
+/// spectra and their dependence on speed and force.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -148,8 +153,16 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
             evaluation_source(library)
         ),
         format!(
-            "  {:10} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>12}",
-            "", "mean error", "median error", "level error", "rank 1", "top 5", "NRS", "signal error"
+            "  {:10} {:>12} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>12}",
+            "",
+            "mean error",
+            "median error",
+            "level error",
+            "shape error",
+            "rank 1",
+            "top 5",
+            "NRS",
+            "signal error"
         ),
     ];
     let best = best(measured).map(|summary| &summary.method);
@@ -157,10 +170,12 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
     let notes = [
         "* lowest mean error. Error: RMS difference of channel levels over 9 speed-force pairs and 40 channels, averaged over textures.",
         "Level error: mean absolute difference of the total vibration level.",
+        "Shape error: error after one gain per texture has matched its mean channel level to that of the original.",
         "Rank 1, top 5: percentage of textures whose original is the closest, or among the five closest, to the interpolated one.",
         "NRS: 1 - error / distance between the two textures farthest apart on the first axis, averaged over textures.",
     ];
     lines.extend(notes.map(str::to_owned));
+    lines.extend(position_caveat(library).map(str::to_owned));
     let checks = measured.methods.iter().filter_map(|summary| summary.signals);
     if let Some(largest) = checks.clone().map(|c| c.mean_difference_db).max_by(f64::total_cmp) {
         let rendered = checks.map(|check| check.n).max().unwrap_or(0);
@@ -178,12 +193,13 @@ fn row(summary: &Summary, is_best: bool) -> String {
     let nrs = summary.nrs_mean.map_or_else(none, |nrs| format!("{nrs:.2}"));
     let signals = summary.signals.map_or_else(none, |check| format!("{:.2} dB", check.error_db_mean));
     format!(
-        "{} {:10} {:9.2} dB {:9.2} dB {:9.2} dB {:4.0} % {:4.0} % {nrs:>6} {signals:>12}",
+        "{} {:10} {:9.2} dB {:9.2} dB {:9.2} dB {:9.2} dB {:4.0} % {:4.0} % {nrs:>6} {signals:>12}",
         if is_best { '*' } else { ' ' },
         method_id(&summary.method),
         summary.error_db_mean,
         summary.error_db_median,
         summary.level_error_db_mean,
+        summary.shape_error_db_mean,
         100.0 * summary.rank1,
         100.0 * summary.top5,
     )

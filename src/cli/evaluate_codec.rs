@@ -25,7 +25,7 @@ use crate::cli::progress::Progress;
 use crate::cli::quantity::{positive, within};
 
 /// Encodes every texture of a library at the codec's five bit rates and measures the loss: the signal-to-noise ratio,
-/// and the discriminability d' that a model predicts.
+/// the level of the decoded signal relative to the original, and the discriminability d' that a model predicts.
 ///
 /// The codec's codebooks were trained on two thirds of the starter library's textures; the others are marked as held
 /// out. The values are computed from signals, not from human ratings.
@@ -63,6 +63,8 @@ struct Row<'a> {
     /// `None` for libraries other than the starter library.
     is_held_out: Option<bool>,
     snr_db: [f64; 5],
+    /// Level of the decoded signal relative to the original, in dB.
+    level_db: [f64; 5],
     d_prime: [f64; 5],
 }
 
@@ -98,6 +100,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
                 "id": row.texture.id,
                 "held_out": row.is_held_out,
                 "snr_db": row.snr_db,
+                "level_db": row.level_db,
                 "dprime": row.d_prime,
             })
         })
@@ -110,6 +113,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "seconds": args.seconds,
         "n": rows.len(),
         "snr_db_mean": means(&rows, |row| row.snr_db),
+        "level_db_mean": means(&rows, |row| row.level_db),
         "dprime_mean": means(&rows, |row| row.d_prime),
         "held_out_snr_db_mean": of_held_out(|row| row.snr_db),
         "held_out_dprime_mean": of_held_out(|row| row.d_prime),
@@ -131,10 +135,11 @@ impl Bench {
         let seed = args.seed.wrapping_mul(1000).wrapping_add(index as u64);
         let felt = signal(&texture.model, contact, args.seconds, seed)?;
         ensure!(rms(&felt) > 0.0, "it is silent at this speed and force; choose another --speed or --force");
-        let mut row = Row { texture, is_held_out, snr_db: [0.0; 5], d_prime: [0.0; 5] };
+        let mut row = Row { texture, is_held_out, snr_db: [0.0; 5], level_db: [0.0; 5], d_prime: [0.0; 5] };
         for (i, rate) in Bitrate::ALL.into_iter().enumerate() {
             let decoded = Coded::encode(&felt, rate, &self.books)?.decode(&self.books);
             row.snr_db[i] = snr_db(&felt, &decoded);
+            row.level_db[i] = 20.0 * (rms(&decoded) / rms(&felt)).log10();
             row.d_prime[i] = self.model.d_prime(&self.meter.distances(&felt, &decoded)?);
         }
         Ok(row)
@@ -171,5 +176,10 @@ fn table(library: &Library, rows: &[Row<'_>]) -> String {
         lines.push(line("mean of *", &means(&marked, |row| row.snr_db), &means(&marked, |row| row.d_prime)));
         lines.push("* held out: the codec's codebooks were not trained on these".to_owned());
     }
+    lines.push(format!(
+        "{:24} {}   (of the decoded signals relative to the originals, in dB)",
+        "mean level",
+        five(&means(rows, |row| row.level_db))
+    ));
     lines.join("\n")
 }

@@ -4,6 +4,8 @@ use serde_json::{Value, json};
 use shagreen_core::recording::fit::{FitOptions, MODEL_RATES_HZ, TapFit};
 use shagreen_core::texture::{Interpolation, MAX_ORDER};
 use shagreen_core::units::Hertz;
+use shagreen_core::words::counted;
+use shagreen_device::synth::tap::REFERENCE_IMPACT_MPS;
 
 /// Options of a fit.
 #[derive(clap::Args)]
@@ -41,9 +43,21 @@ pub(crate) fn tap_json(tap: Option<&TapFit>) -> Value {
             "decay_per_s": fit.tap.decay_per_sec,
             "amplitude_mps2": fit.tap.amplitude_mps2,
             "landings": fit.n_landings,
+            "assumed_impact_mm_per_s": 1e3 * REFERENCE_IMPACT_MPS,
             "explained": fit.explained,
         })
     })
+}
+
+/// Describes a fitted tap transient, with the impact speed that is assumed because recordings do not state one.
+pub(crate) fn tap_text(tap: &TapFit) -> String {
+    format!(
+        "tap transient of {:.0} Hz and {:.1} m/s² from {}, which are assumed to land at {:.0} mm/s; faster landings are played stronger",
+        tap.tap.frequency.0,
+        tap.tap.amplitude_mps2,
+        counted(tap.n_landings, "landing"),
+        1e3 * REFERENCE_IMPACT_MPS
+    )
 }
 
 fn parse_rate(text: &str) -> Result<f64, String> {

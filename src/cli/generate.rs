@@ -68,7 +68,8 @@ pub(crate) struct Args {
     #[arg(long, default_value_t = 512, value_parser = clap::value_parser!(u32).range(64..=2048))]
     size: u32,
     /// Interpolate the texture from the starter library, instead of simulating it from the heights that the picture shows.
-    /// Pictures of a diffusion model have no heights; their textures are always interpolated.
+    /// The heights are then not written. Pictures of a diffusion model have no heights; their textures are always
+    /// interpolated.
     #[arg(long)]
     interpolated: bool,
     /// Generate the picture with the diffusion model that `shagreen model add` registered; this takes minutes to hours
@@ -94,7 +95,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "the prompt is empty; describe a surface, such as \"rough sandstone\""
     );
     let project_name = format!("project.{EXTENSION}");
-    check_folder(&args.out, &project_name)?;
+    let earlier_heights = check_folder(&args.out, &project_name)?;
     let all = [PICTURE, HEIGHTS, TEXTURE, &project_name, DESCRIPTION].map(|name| args.out.join(name));
     check_together::<&str>(&all.each_ref().map(PathBuf::as_path), Some(&args.out), &[])?;
     let understood = interpret(&args.prompt, built_in_lexicon()?);
@@ -115,8 +116,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let rgb = Rgb::from(&made.picture);
     let picture = encode_jpeg(&rgb, made.picture.millimeters)?;
     let neighbors = neighbors(&library, at);
-    let surface = made.relief.as_ref().map(|relief| &relief.surface).filter(|_| !args.interpolated);
+    // The folder contains only what its texture is made from.
+    let relief = made.relief.as_ref().filter(|_| !args.interpolated);
+    let surface = relief.map(|relief| &relief.surface);
     let entry = texture_of_picture(surface, &library, &name, at, &picture)?;
+    let texture_id = entry.id.clone();
     let authored = AuthoredTexture {
         at,
         picture: Some(Arc::new(picture)),
@@ -134,6 +138,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "millimeters_source": if made.relief.is_some() { "made" } else { "assumed" },
         "at": [at.rough_smooth, at.hard_soft],
         "texture": shown(TEXTURE),
+        "texture_id": texture_id,
         "texture_source": if surface.is_some() { "height field" } else { "interpolation" },
         "project": shown(&project_name),
         "seed": args.seed,
@@ -150,13 +155,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "is_about_touch": understood.is_about_touch(),
     });
     let mut files = vec![(file(PICTURE), encode_png(&rgb)?)];
-    if let Some(PicturedRelief { field, .. }) = &made.relief {
-        let heights = field.heights_m();
-        let low = heights.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if let Some(PicturedRelief { field, .. }) = relief {
         result["heights"] = json!(shown(HEIGHTS));
-        result["heights_um"] = json!([1e6 * low, 1e6 * high]);
-        files.push((file(HEIGHTS), encode_heights(heights, field.tile().n_cells)?));
+        result["heights_um"] = json!(range_um(field.heights_m()));
+        files.push((file(HEIGHTS), encode_heights(field.heights_m(), field.tile().n_cells)?));
     }
     let source = if surface.is_some() { FROM_HEIGHTS } else { FROM_LIBRARY };
     let library_of_one = Library {
@@ -166,29 +168,50 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     files.push((file(TEXTURE), write_library(&library_of_one)));
     files.push((file(&project_name), write_project(&project, &args.out, output::CREATED_BY)));
     write(&args.out, files, &mut result)?;
+    remove_heights(&file(HEIGHTS), earlier_heights.filter(|_| relief.is_none()))?;
     output::print(args.json, &result, || {
         let line = |(name, axis): (&str, &CombinedEstimate)| {
             format!("{name:<13}  {:5.1} ± {:.1}\n", axis.estimate.mean, axis.estimate.deviation)
         };
         let lines: String = ATTRIBUTES.into_iter().zip(&placed.axes).map(line).collect();
-        let disputed = placed.disputed();
-        let quarrel = if disputed.is_empty() {
-            String::new()
-        } else {
-            format!("\nthe prompt and the picture predict different values of {}", disputed.join(" and "))
-        };
+        let quarrel = quarrel(&placed.disputed());
         let near: Vec<&str> = neighbors.iter().filter_map(|near| near["name"].as_str()).collect();
         format!(
-            "{lines}nearest textures: {}{quarrel}{}\npicture by the {}: {}\ntexture, {source}: {}\nproject: {}",
+            "{lines}nearest textures: {}{quarrel}{}\npicture by the {}: {}\ntexture {texture_id}, {source}: {}\nproject: {}\n{}",
             near.join(", "),
             prompt_summary(&understood),
             made.by,
             shown(PICTURE),
             shown(TEXTURE),
-            shown(&project_name)
+            shown(&project_name),
+            next_step(&shown(TEXTURE), &texture_id)
         )
     });
     Ok(())
+}
+
+/// Returns the lowest and the highest height, in µm.
+fn range_um(heights_m: &[f64]) -> [f64; 2] {
+    let low = heights_m.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = heights_m.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    [1e6 * low, 1e6 * high]
+}
+
+/// Returns a line about attributes of which prompt and picture predict different values.
+fn quarrel(disputed: &[&str]) -> String {
+    if disputed.is_empty() {
+        return String::new();
+    }
+    format!("\nthe prompt and the picture predict different values of {}", disputed.join(" and "))
+}
+
+/// Returns the command that renders the texture.
+fn next_step(library: &str, id: &str) -> String {
+    let library =
+        if library.contains(char::is_whitespace) { format!("\"{library}\"") } else { library.to_owned() };
+    format!(
+        "to render it: shagreen render --library {library} --texture {id} --speed 100 --force 1 --seconds 2 -o texture.wav"
+    )
 }
 
 /// Returns a library of the generated texture alone.
@@ -258,17 +281,24 @@ fn write(folder: &Path, mut files: Vec<(PathBuf, Vec<u8>)>, result: &mut Value) 
         }
     }
     files.push((folder.join(DESCRIPTION), serde_json::to_vec_pretty(&kept)?));
-    write_together(&files, Some(folder))?;
-    let heights = folder.join(HEIGHTS);
-    if result.get("heights").is_none() && heights.exists() {
-        // The heights of an earlier picture.
-        std::fs::remove_file(&heights).with_context(|| file::in_file(&heights))?;
+    write_together(&files, Some(folder))
+}
+
+/// Removes the heights of an earlier result, if they still have this SHA-256.
+fn remove_heights(path: &Path, sha256: Option<String>) -> anyhow::Result<()> {
+    let Some(sha256) = sha256 else { return Ok(()) };
+    let bytes = bounded_file::read(path, FileKind::Document);
+    if bytes.is_ok_and(|bytes| sha256_of(&bytes) == sha256) {
+        std::fs::remove_file(path)
+            .context("the heights of an earlier result cannot be removed; remove this file")
+            .with_context(|| file::in_file(path))?;
     }
     Ok(())
 }
 
-/// Returns an error if a file that must not be replaced is in the folder.
-fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<()> {
+/// Returns an error if a file that must not be replaced is in the folder. Otherwise returns the SHA-256 of the heights of
+/// an earlier result, if they are there.
+fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<Option<String>> {
     ensure!(
         !folder.exists() || folder.is_dir(),
         "--out needs a folder, but this is a file; choose another folder: {}",
@@ -295,7 +325,9 @@ fn check_folder(folder: &Path, project_name: &str) -> anyhow::Result<()> {
             );
         }
     }
-    Ok(())
+    let heights = folder.join(HEIGHTS).is_file();
+    let sha256 = before.as_ref().and_then(|before| before["sha256"][HEIGHTS].as_str());
+    Ok(sha256.filter(|_| heights).map(str::to_owned))
 }
 
 /// Returns attributes with their standard deviations, by name.

@@ -32,7 +32,7 @@ pub(crate) fn texture_of_picture(
     }
     Ok(TextureEntry {
         description: format!("Generated from the prompt \"{name}\"; nobody rated it."),
-        place: Some(Place { at, source: LabelSource::Estimated }),
+        place: Some(Place::new(at, LabelSource::Estimated)),
         picture: Some(picture.clone()),
         ..TextureEntry::new(id_from_name(name), name, interpolated_at(library, at)?)
     })

@@ -10,7 +10,7 @@ use shagreen_studio::import::directional::{
 };
 use shagreen_studio::parallel::{in_parallel_by, n_processors};
 
-use crate::cli::fit_args::{FitArgs, tap_json};
+use crate::cli::fit_args::{FitArgs, tap_json, tap_text};
 use crate::cli::import::{Destination, Outcome};
 use crate::cli::progress::Progress;
 
@@ -89,6 +89,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         match done.texture {
             Ok(made) => {
                 outcome.note(Path::new(name), &made.summary);
+                if let Some(tap) = &made.report.tap {
+                    outcome.note(Path::new(name), &tap_text(tap));
+                }
                 let figures = figures(&made);
                 let mut entry = made.entry;
                 entry.id = outcome.claim_id(&entry.name);

@@ -5,13 +5,13 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::recording::Recording;
-use shagreen_core::recording::fit::{self, Fitted};
+use shagreen_core::recording::fit::{self, FitReport, Fitted, MODEL_RATES_HZ};
 use shagreen_formats::atomic;
 use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg, is_fit_report_csv, is_fit_report_svg};
 use shagreen_formats::library::{TextureEntry, name_from_file};
 use shagreen_formats::recording::{Ask, ColumnMap};
 
-use crate::cli::fit_args::{FitArgs, tap_json};
+use crate::cli::fit_args::{FitArgs, tap_json, tap_text};
 use crate::cli::import::{Destination, Outcome, files_in};
 use crate::cli::progress::Progress;
 use crate::cli::recording_answers::{map_of, parse_answer};
@@ -139,6 +139,7 @@ fn import(
     for note in &fitted.report.notes {
         outcome.warn_of_all(format!("{}: {note}", names.join(", ")));
     }
+    outcome.note(Path::new(&job.name), &summary(&fitted.report, &recordings));
     let id = outcome.claim_id(&job.name);
     if let Some(folder) = &args.report {
         write_report(args, paths, (folder, &id), &job.name, &fitted)?;
@@ -151,6 +152,29 @@ fn import(
     };
     outcome.imported(texture, figures);
     Ok(())
+}
+
+/// Returns rate, order and errors of a fit, what the rate loses, and the tap transient.
+fn summary(report: &FitReport, recordings: &[Recording]) -> String {
+    let compared = if report.held_out { "held-out segments" } else { "the fitted segments" };
+    let mut parts = vec![format!(
+        "model rate {:.0} Hz, order {}; against {compared}: GFC {:.3}, level error {:.2} dB (medians)",
+        report.rate.0,
+        report.order,
+        report.gfc_median(),
+        report.level_error_db_median()
+    )];
+    let lowest_hz = recordings.iter().map(|recording| recording.rate.0).fold(f64::INFINITY, f64::min);
+    // The clock of a recording deviates slightly from its nominal rate.
+    let is_possible = |rate_hz: &f64| *rate_hz > report.rate.0 && *rate_hz <= 1.001 * lowest_hz;
+    if let Some(next_hz) = MODEL_RATES_HZ.into_iter().find(is_possible) {
+        parts.push(format!(
+            "the recording has {lowest_hz:.0} Hz, of which the model keeps what lies below {:.0} Hz (--rate {next_hz:.0} keeps more)",
+            0.5 * report.rate.0
+        ));
+    }
+    parts.extend(report.tap.as_ref().map(tap_text));
+    parts.join("; ")
 }
 
 /// Writes the page of plots and the table of segments, and never replaces an input.
@@ -212,4 +236,57 @@ fn figures(files: &[&Path], fitted: &Fitted) -> Value {
         "held_out": report.held_out,
         "tap": tap_json(report.tap.as_ref()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::summary;
+    use shagreen_core::recording::Recording;
+    use shagreen_core::recording::fit::{FitReport, TapFit};
+    use shagreen_core::texture::tap::Tap;
+    use shagreen_core::units::Hertz;
+
+    fn recording(rate_hz: f64) -> Recording {
+        Recording {
+            rate: Hertz(rate_hz),
+            acceleration_mps2: Vec::new(),
+            speed_mps: Vec::new(),
+            force_n: Vec::new(),
+            usable: Vec::new(),
+        }
+    }
+
+    fn report(rate_hz: f64, tap: Option<TapFit>) -> FitReport {
+        FitReport {
+            segments: Vec::new(),
+            rate: Hertz(rate_hz),
+            order: 20,
+            coverage: 1.0,
+            frequencies: Vec::new(),
+            tap,
+            held_out: true,
+            notes: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn the_summary_states_a_lower_rate_and_how_to_keep_more() {
+        let said = summary(&report(1000.0, None), &[recording(1999.6), recording(10_000.0)]);
+        assert!(said.starts_with("model rate 1000 Hz, order 20; against held-out segments: GFC "), "{said}");
+        assert!(said.contains("below 500 Hz (--rate 2000 keeps more)"), "{said}");
+        for rate_hz in [1000.0, 1500.0] {
+            let said = summary(&report(1000.0, None), &[recording(rate_hz)]);
+            assert!(!said.contains("--rate"), "{said}");
+        }
+    }
+
+    #[test]
+    fn the_impact_speed_of_a_tap_is_stated_as_assumed() {
+        let tap = Tap { frequency: Hertz(250.0), decay_per_sec: 250.0, amplitude_mps2: 30.0 };
+        let fit = TapFit { tap, n_landings: 10, explained: 0.9 };
+        let said = summary(&report(1000.0, Some(fit)), &[recording(1000.0)]);
+        let words =
+            "tap transient of 250 Hz and 30.0 m/s² from 10 landings, which are assumed to land at 100 mm/s";
+        assert!(said.contains(words), "{said}");
+    }
 }

@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
+use shagreen_formats::axis_sources::axis_sources;
 use shagreen_formats::library::{Library, Provenance, TextureEntry};
 
 use crate::cli::library_args::LibraryArgs;
@@ -21,7 +22,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let textures: Vec<Value> = library.textures.iter().map(|texture| describe(&library, texture)).collect();
     output::print(
         args.json,
-        &json!({"library": library.name, "axes": library.axis_names(), "textures": textures}),
+        &json!({
+            "library": library.name,
+            "axes": library.axis_names(),
+            "axis_sources": library.space_report.as_ref().and_then(axis_sources),
+            "textures": textures,
+        }),
         || table(&library),
     );
     Ok(())
@@ -98,6 +104,8 @@ fn table(library: &Library) -> String {
     let [across, up] = library.axis_names();
     let head = format!("{}: {} textures; axes: {across} and {up}", library.name, library.textures.len());
     let mut lines = vec![head];
+    let sources = library.space_report.as_ref().and_then(axis_sources);
+    lines.extend(sources.map(|sources| format!("positions: {sources}")));
     lines.extend(library.textures.iter().map(line));
     lines.join("\n")
 }

@@ -82,9 +82,7 @@ fn make_library(materials: &Materials, step: &(dyn Fn() + Sync)) -> anyhow::Resu
         .iter()
         .zip(made)
         .zip(places)
-        .map(|((material, made), at)| {
-            entry(material, made, Place { at, source: LabelSource::PhysicalLabels })
-        })
+        .map(|((material, made), at)| entry(material, made, Place::new(at, LabelSource::PhysicalLabels)))
         .collect::<anyhow::Result<_>>()?;
     Ok(Library {
         description: "Everyday surfaces under the plastic ball of a 40 g pen.".to_owned(),

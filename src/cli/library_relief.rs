@@ -10,15 +10,14 @@ use shagreen_core::texture::height_map::HeightMapOptions;
 use shagreen_core::texture::relief::Relief;
 use shagreen_core::units::Newtons;
 use shagreen_formats::atomic;
-use shagreen_formats::height_picture::HeightScale;
 use shagreen_formats::library::{Library, write_library};
 
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed, Usage, warn_of_restricted};
 use crate::cli::profile_source::ProfileArgs;
-use crate::cli::quantity::positive;
+use crate::cli::quantity::{positive, within};
 use shagreen_studio::file;
-use shagreen_studio::height_map;
+use shagreen_studio::height_map::{self, HEIGHTS_UM, ReliefSize, ReliefSizeError, SIDES_MM};
 use shagreen_studio::near_names::unknown_texture;
 use shagreen_studio::replace::{is_library, refuse_foreign, refuse_inputs};
 
@@ -51,13 +50,13 @@ pub(crate) struct Args {
     #[arg(
         long,
         value_name = "MM",
-        value_parser = positive,
+        value_parser = side_mm,
         requires = "height_um",
         conflicts_with_all = ["width", "row", "speed", "full_scale", "channel", "level"]
     )]
     side_mm: Option<f64>,
     /// Height of white above black in the picture, in µm. For a photo, it is your estimate.
-    #[arg(long, value_name = "UM", value_parser = positive, requires = "side_mm")]
+    #[arg(long, value_name = "UM", value_parser = height_um, requires = "side_mm")]
     height_um: Option<f64>,
     /// Library file to write.
     #[arg(short, long, value_name = "L2")]
@@ -71,9 +70,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[Some(args.profile.path()), args.library.path()])?;
     refuse_foreign(&args.out, "a library", is_library)?;
     match (args.side_mm, args.height_um) {
-        (Some(side_mm), Some(height_um)) => {
-            add_height_map(args, HeightScale { side_m: 1e-3 * side_mm, height_m: 1e-6 * height_um })
-        }
+        (Some(side_mm), Some(height_um)) => add_height_map(args, ReliefSize { side_mm, height_um }),
         _ => add_profile(args),
     }
 }
@@ -132,15 +129,16 @@ fn add_profile(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn add_height_map(args: &Args, scale: HeightScale) -> anyhow::Result<()> {
+fn add_height_map(args: &Args, size: ReliefSize) -> anyhow::Result<()> {
     let options = HeightMapOptions { force: Newtons(args.force), ..HeightMapOptions::HARD_PLASTIC };
-    let picture = height_map::of_picture(args.profile.path(), scale, options, &Printed)?;
-    let map = &picture.map;
+    let relief = height_map::of_picture(args.profile.path(), size, options, &Printed)
+        .map_err(|error| with_options(error, size))?;
+    let map = &relief.map;
     let low_um = 1e6 * map.heights_m().iter().copied().fold(f64::INFINITY, f64::min);
     let high_um = 1e6 * map.heights_m().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let (n, side_mm) = (map.n(), 1e3 * map.side_m());
     let mut library = args.library.load()?;
-    height_map::add_to_texture(&mut library, &args.texture, picture.map, &Printed)?;
+    height_map::add_to_texture(&mut library, &args.texture, &relief, &Printed)?;
     write(library, args)?;
     output::print(
         args.json,
@@ -150,8 +148,9 @@ fn add_height_map(args: &Args, scale: HeightScale) -> anyhow::Result<()> {
             "side_mm": side_mm,
             "low_um": low_um,
             "high_um": high_um,
-            "seamless": picture.is_seamless,
-            "assumed": picture.is_colored,
+            "seamless": relief.is_seamless,
+            "assumed": relief.is_colored,
+            "impossible": relief.warning,
             "force_n": args.force,
             "out": args.out.display().to_string(),
         }),
@@ -164,6 +163,23 @@ fn add_height_map(args: &Args, scale: HeightScale) -> anyhow::Result<()> {
         },
     );
     Ok(())
+}
+
+fn side_mm(text: &str) -> Result<f64, String> {
+    within(text, &SIDES_MM, "mm")
+}
+
+fn height_um(text: &str) -> Result<f64, String> {
+    within(text, &HEIGHTS_UM, "µm")
+}
+
+/// Names the options of a size that gives no height map.
+fn with_options(error: anyhow::Error, size: ReliefSize) -> anyhow::Error {
+    if error.downcast_ref::<ReliefSizeError>().is_none() {
+        return error;
+    }
+    let ReliefSize { side_mm, height_um } = size;
+    error.context(format!("--height-um {height_um} does not fit --side-mm {side_mm}"))
 }
 
 fn write(mut library: Library, args: &Args) -> anyhow::Result<()> {

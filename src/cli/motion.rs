@@ -6,7 +6,7 @@ use anyhow::bail;
 use shagreen_core::units::Contact;
 use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::wav::TraceV1;
-use shagreen_studio::trace::{steady_trace, stroke_trace};
+use shagreen_studio::trace::steady_trace;
 
 use crate::cli::output;
 use crate::cli::quantity::{force, quantity, speed};
@@ -26,7 +26,8 @@ pub(crate) struct MotionArgs {
     seconds: Option<f64>,
     /// Recorded stroke: pen samples (.svc); a table (.csv) with the columns t, x, y and pressure or force, or t, speed
     /// and force, optionally with speed_normal, the speed of a landing in mm/s; or pen reports with their descriptor,
-    /// recorded with hid-recorder or usbhid-dump.
+    /// recorded with hid-recorder or usbhid-dump. A first row in contact is a landing only
+    /// if it states a speed_normal above 0.
     #[arg(long, value_name = "FILE")]
     stroke: Option<PathBuf>,
     #[command(flatten)]
@@ -115,13 +116,11 @@ impl Motion {
         }
     }
 
-    /// Returns speed and force over time, for a sidecar.
+    /// Returns the motion over time, for a sidecar.
     pub(crate) fn trace(&self) -> TraceV1 {
         match self {
             Self::Steady { contact, seconds } => steady_trace(*contact, *seconds),
-            Self::Stroke { contacts, .. } => {
-                stroke_trace(contacts.duration_secs(), |secs| contacts.contact_at(secs))
-            }
+            Self::Stroke { contacts, .. } => contacts.trace(),
         }
     }
 }

@@ -9,7 +9,7 @@ use shagreen_core::maths::gaussian_process::Estimate;
 use shagreen_core::recording::Recording;
 use shagreen_core::recording::fit::{self, FitOptions, Stroke};
 use shagreen_core::space::LabelSource;
-use shagreen_core::space::attribute_predictor::{predict, quantities};
+use shagreen_core::space::attribute_predictor::{predict, quantities, without_features};
 use shagreen_core::surfaces::prompt::interpret;
 use shagreen_core::surfaces::starter::FRAMING;
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
@@ -94,7 +94,9 @@ fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
     let seen =
         looker.look(&pixels.into_surface(FRAMING.millimeters)).with_context(|| file::in_file(photo))?;
     let model = looker.model();
-    let attributes: Vec<(&str, Estimate)> = model.attributes().iter().map(String::as_str).zip(seen).collect();
+    let names = model.attributes().iter().map(String::as_str);
+    let attributes: Vec<Attribute<'_>> =
+        names.zip(seen).map(|(name, of)| Attribute::new(name, of, UNIFORM_DEVIATION)).collect();
     let what = format!("{}, trained on {}", model.eyes().name(), model.learned_from());
     let result = json!({
         "attributes": as_json(&attributes),
@@ -104,14 +106,18 @@ fn of_photo(args: &Args, photo: &Path) -> anyhow::Result<()> {
     });
     progress.finish();
     output::print(args.json, &result, || {
-        format!("{}\npredicted by {what}\nan estimate: no person rated it", table_text(&attributes))
+        let table = table_text(&attributes, "photo");
+        format!("{table}\npredicted by {what}\nan estimate: no person rated it")
     });
     Ok(())
 }
 
 fn of_prompt(args: &Args, prompt: &str) -> anyhow::Result<()> {
     let understood = interpret(prompt, built_in_lexicon()?);
-    let attributes: Vec<(&str, Estimate)> = ATTRIBUTES.into_iter().zip(understood.attributes).collect();
+    // A prompt always has an estimate: that of its words, or of no word at all.
+    let of_words = ATTRIBUTES.into_iter().zip(understood.attributes);
+    let attributes: Vec<Attribute<'_>> =
+        of_words.map(|(name, of)| Attribute::new(name, of, f64::INFINITY)).collect();
     let words: Vec<Value> = understood
         .words
         .iter()
@@ -128,7 +134,7 @@ fn of_prompt(args: &Args, prompt: &str) -> anyhow::Result<()> {
         "is_about_touch": understood.is_about_touch(),
     });
     output::print(args.json, &result, || {
-        format!("{}{}", table_text(&attributes), prompt_summary(&understood))
+        format!("{}{}", table_text(&attributes, "prompt"), prompt_summary(&understood))
     });
     Ok(())
 }
@@ -165,7 +171,10 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
     let table = attribute_table(&library)?;
     let known = table.known(&library);
     let estimates = predict(&known, &quantities(&fitted.model))?;
-    let attributes: Vec<(&str, Estimate)> = table.names.iter().map(String::as_str).zip(estimates).collect();
+    let labels = without_features(&known);
+    let of_names = table.names.iter().zip(estimates).zip(&labels);
+    let attributes: Vec<Attribute<'_>> =
+        of_names.map(|((name, of), labels)| Attribute::new(name, of, labels.deviation)).collect();
     let what = format!("a Gaussian process over {}", table.of_library(&library.name));
     // The training data identify the model.
     let learned = serde_json::to_vec(&json!([table.names, table.values]))?;
@@ -176,7 +185,12 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
         "label_source": table.source_ids().collect::<Vec<_>>(),
         "segments": fitted.report.segments.len(),
     });
-    output::print(args.json, &result, || format!("{}\npredicted by {what}", table_text(&attributes)));
+    output::print(args.json, &result, || {
+        let table = table_text(&attributes, "recording");
+        format!(
+            "{table}\npredicted by {what}\nOther labels give other predictions: --library selects them. The window predicts from the labels of the open library."
+        )
+    });
     Ok(())
 }
 
@@ -194,11 +208,11 @@ fn by_network(args: &Args, path: &Path, recordings: &[Recording]) -> anyhow::Res
     })?;
     warn_of_unknown(recordings, &strokes);
     let estimates = predicted.into_iter().zip(&card.left_out_rmse);
-    let attributes: Vec<(&str, Estimate)> = card
-        .attributes
-        .iter()
-        .map(String::as_str)
-        .zip(estimates.map(|(mean, deviation)| Estimate { mean, deviation: *deviation }))
+    let of_names = card.attributes.iter().zip(estimates);
+    let attributes: Vec<Attribute<'_>> = of_names
+        .map(|(name, (mean, deviation))| {
+            Attribute::new(name, Estimate { mean, deviation: *deviation }, UNIFORM_DEVIATION)
+        })
         .collect();
     let what = format!("the network {}, trained on {}", card.network, card.learned_from);
     let result = json!({
@@ -208,7 +222,9 @@ fn by_network(args: &Args, path: &Path, recordings: &[Recording]) -> anyhow::Res
         "label_source": card.label_sources,
         "strokes": strokes.len(),
     });
-    output::print(args.json, &result, || format!("{}\npredicted by {what}", table_text(&attributes)));
+    output::print(args.json, &result, || {
+        format!("{}\npredicted by {what}", table_text(&attributes, "recording"))
+    });
     Ok(())
 }
 
@@ -238,17 +254,73 @@ fn warn_of_unknown(recordings: &[Recording], strokes: &[Stroke]) {
     }
 }
 
-fn as_json(attributes: &[(&str, Estimate)]) -> BTreeMap<String, Value> {
-    let of = |(name, estimate): &(&str, Estimate)| {
-        ((*name).to_owned(), json!({"value": estimate.mean, "sd": estimate.deviation}))
+/// Predicted attribute.
+struct Attribute<'a> {
+    name: &'a str,
+    estimate: Estimate,
+    /// Standard deviation from which a prediction says nothing: that of the labels, or of any value.
+    limit: f64,
+}
+
+impl<'a> Attribute<'a> {
+    fn new(name: &'a str, estimate: Estimate, limit: f64) -> Self {
+        Self { name, estimate, limit }
+    }
+
+    fn is_told(&self) -> bool {
+        self.estimate.deviation < self.limit
+    }
+}
+
+fn as_json(attributes: &[Attribute<'_>]) -> BTreeMap<String, Value> {
+    let of = |attribute: &Attribute<'_>| {
+        let Estimate { mean, deviation } = attribute.estimate;
+        (attribute.name.to_owned(), json!({"value": mean, "sd": deviation, "told": attribute.is_told()}))
     };
     attributes.iter().map(of).collect()
 }
 
-/// Returns one line per attribute.
-fn table_text(attributes: &[(&str, Estimate)]) -> String {
-    let widest = attributes.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-    let line =
-        |(name, of): &(&str, Estimate)| format!("{name:<widest$}  {:5.1} ± {:.1}", of.mean, of.deviation);
+/// Standard deviation of a value that may lie anywhere from 0 to 100 with the same probability, `100/√12`.
+const UNIFORM_DEVIATION: f64 = 28.87;
+
+/// Returns one line per attribute, without a number for those that `source` does not determine.
+fn table_text(attributes: &[Attribute<'_>], source: &str) -> String {
+    let widest = attributes.iter().map(|attribute| attribute.name.len()).max().unwrap_or(0);
+    let line = |attribute: &Attribute<'_>| {
+        let Attribute { name, estimate: Estimate { mean, deviation }, limit } = attribute;
+        if attribute.is_told() {
+            format!("{name:<widest$}  {mean:5.1} ± {deviation:.1}")
+        } else {
+            format!(
+                "{name:<widest$}  cannot be told from this {source} (± {deviation:.0}; ± {limit:.0} without the {source})"
+            )
+        }
+    };
     attributes.iter().map(line).collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Attribute, Estimate, as_json, table_text};
+
+    #[test]
+    fn an_attribute_that_is_unknown_is_said_in_words() {
+        let attributes = [
+            Attribute::new("rough-smooth", Estimate { mean: 40.0, deviation: 9.0 }, 31.0),
+            Attribute::new("hard-soft", Estimate { mean: 100.0, deviation: 72.1 }, 31.0),
+        ];
+        let text = table_text(&attributes, "recording");
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[0], "rough-smooth   40.0 ± 9.0");
+        assert_eq!(
+            lines[1],
+            "hard-soft     cannot be told from this recording (± 72; ± 31 without the recording)"
+        );
+        let json = as_json(&attributes);
+        assert_eq!(
+            (&json["rough-smooth"]["told"], &json["hard-soft"]["told"]),
+            (&true.into(), &false.into())
+        );
+        assert_eq!(json["hard-soft"]["value"], 100.0);
+    }
 }

@@ -2,12 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail};
+use anyhow::{Context as _, anyhow, bail};
 use shagreen_core::signals::spatial_spectrogram::Framing;
 use shagreen_core::texture::profile::Profile;
 use shagreen_core::texture::relief::felt_profile;
 use shagreen_core::units::{Hertz, MetersPerSecond};
 use shagreen_formats::bounded_file::FileKind;
+use shagreen_formats::foreign_file::Found;
 use shagreen_formats::picture::{brightness_row, is_picture};
 use shagreen_formats::profile_csv::read_profile_csv;
 
@@ -118,7 +119,12 @@ impl ProfileArgs {
                 if is_picture(&bytes) {
                     return Err(Usage("a picture is converted to a profile by the width of its surface; give --width in mm".to_owned()).into());
                 }
-                read_profile_csv(&bytes).with_context(|| file::in_file(&self.path))
+                // A table can begin with the letters of a picture format, such as "P1 (mm)".
+                let profile = read_profile_csv(&bytes).map_err(|error| {
+                    let found = Found::of(&bytes);
+                    if found.is_picture() { anyhow!(found.instead_of_photo()) } else { error.into() }
+                });
+                profile.with_context(|| file::in_file(&self.path))
             }
         }
     }

@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use serde_json::{Value, json};
 use shagreen_core::space::authoring::{Outside, Weights};
-use shagreen_formats::project::{AuthoredTexture, ProjectLibrary};
+use shagreen_formats::library::Library;
+use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
 use shagreen_studio::library_names;
 
 use crate::cli::output::{self, Printed};
@@ -37,6 +38,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "library_kept": kept,
         "textures": textures.textures.len(),
         "joined": project.joined.len(),
+        "own": own_textures(&project, &textures),
         "authored": authored,
         "selected": project.texture().key,
         "snapshots": project.snapshots.len(),
@@ -50,6 +52,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         lines.join("\n")
     });
     Ok(())
+}
+
+/// Identifiers of the added textures that take part only in the authored textures that pin them.
+fn own_textures<'a>(project: &Project, textures: &'a Library) -> Vec<&'a str> {
+    let own = project.left_out(&textures.textures, |_| false);
+    own.into_iter().filter_map(|index| Some(textures.textures.get(index)?.id.as_str())).collect()
 }
 
 fn describe(texture: &AuthoredTexture) -> Value {

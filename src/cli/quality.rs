@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use anyhow::{Context as _, ensure};
 use serde_json::{Value, json};
 use shagreen_core::signals::quality::{
-    Feature, Features, PAPER_RATE, QualityMeter, SEGMENT_SECS, snr_db, spqi, st_sim,
+    Agreement, Feature, Features, MOST_D_PRIME, PAPER_RATE, QualityMeter, Relation, SEGMENT_SECS, snr_db,
+    spqi, st_sim,
 };
 use shagreen_formats::quality_model::built_in_quality_model;
 use shagreen_formats::thresholds::ThresholdKind;
@@ -19,12 +20,13 @@ use shagreen_studio::file;
 /// Compares a signal with a reference by perceptual features and predicts their discriminability d'.
 ///
 /// Both are WAV files in m/s², compared sample by sample at 2000 Hz in segments of 0.8 s. d' = z(H) - z(F), with the
-/// hit rate H and the false-alarm rate F of a same-different experiment: at d' = 1 an unbiased observer gives 69 %
-/// correct answers.
+/// hit rate H and the false-alarm rate F of the yes-no question "different?": at d' = 1 an unbiased observer gives
+/// Φ(d'/2) = 69 % correct answers. (In a two-alternative forced choice, the proportion would be Φ(d'/√2) = 76 %.)
 ///
-/// The prediction is meant for a signal and a processed version of it. Two different strokes on one texture give a
-/// large d' although they feel alike. No person rated these signals: a model with published weights predicts d', and
-/// its feature distances are scaled on a corpus of simulated textures.
+/// The prediction is for a signal and a processed version of it, whose waveforms correlate. Two strokes on one texture,
+/// or two renderings of it, feel alike, but the model would give them a large d'. The command therefore prints no d' for
+/// signals whose waveforms do not correlate. No person rated these signals: a model with published weights predicts d', and
+/// its feature distances are scaled on a corpus of simulated textures. Use d' to rank signals.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Reference signal.
@@ -80,11 +82,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let similarities =
         [st_sim(&reference, &test, rate, &threshold), spqi(&reference, &test, rate, &threshold)];
     let snr = snr_db(&reference, &test);
+    let agreement = Agreement::of(&reference, &test, rate);
 
     let mut answer = json!({
         "d_power": distances.by(Feature::SpectralPower),
         "d_amplitude": distances.by(Feature::SpectralAmplitude),
         "dprime": d_prime,
+        "dprime_applies": agreement.relation() == Relation::Processed,
+        "waveform_correlation": agreement.correlation,
+        "octave_levels_differ_db": agreement.spectra_db,
         "st_sim": similarities[0],
         "spqi": similarities[1],
         // Infinite for identical signals.
@@ -103,8 +109,31 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         };
     }
     progress.finish();
-    output::print(args.json, &answer, || text(&answer));
+    output::print(args.json, &answer, || text(&answer, &d_prime_text(d_prime, seconds, &agreement)));
     Ok(())
+}
+
+/// States the predicted d' and its limits, or why it does not apply.
+fn d_prime_text(d_prime: f64, seconds: f64, agreement: &Agreement) -> String {
+    let Agreement { correlation, spectra_db } = agreement;
+    match agreement.relation() {
+        Relation::Processed => {
+            let value = if d_prime > MOST_D_PRIME {
+                format!("above {MOST_D_PRIME:.0} (told apart at once)")
+            } else {
+                format!("{d_prime:.2}")
+            };
+            format!(
+                "d' {value}, predicted by a model over {seconds:.1} s, not rated by people\nd' ranks processed versions of one signal; its absolute value is uncertain"
+            )
+        }
+        Relation::DifferentNoise => format!(
+            "no d': different noise. The spectra agree (octave levels differ by {spectra_db:.1} dB), but the waveforms do not correlate (r = {correlation:.2}), as for two renderings or strokes of one texture. The model compares waveforms, and would count the noise as a perceptible difference. Not rated by people"
+        ),
+        Relation::Unrelated => format!(
+            "no d': the waveforms do not correlate (r = {correlation:.2}), and the octave levels differ by {spectra_db:.1} dB. The model predicts d' only for a signal and a processed version of it. Not rated by people"
+        ),
+    }
 }
 
 /// Returns a feature of one signal; activations and envelopes exist only as distances.
@@ -118,7 +147,7 @@ fn own(features: &Features, feature: Feature) -> Option<f64> {
     }
 }
 
-fn text(answer: &Value) -> String {
+fn text(answer: &Value, d_prime: &str) -> String {
     let number = |value: &Value| value.as_f64().map_or_else(|| "\u{2013}".to_owned(), |x| format!("{x:.4}"));
     let mut lines = vec![format!("{:20} {:>12} {:>12} {:>12}", "", "reference", "test", "distance")];
     for feature in Feature::ALL {
@@ -131,11 +160,7 @@ fn text(answer: &Value) -> String {
         );
         lines.push(line.trim_end().to_owned());
     }
-    lines.push(format!(
-        "d' {:.2}, predicted by a model over {} s, not rated by people",
-        answer["dprime"].as_f64().unwrap_or(0.0),
-        answer["seconds"]
-    ));
+    lines.push(d_prime.to_owned());
     lines.push(format!(
         "ST-SIM {}, SPQI {}, signal-to-noise ratio {} dB",
         number(&answer["st_sim"]),
@@ -143,4 +168,23 @@ fn text(answer: &Value) -> String {
         number(&answer["snr_db"])
     ));
     lines.join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Agreement, d_prime_text};
+
+    #[test]
+    fn a_d_prime_is_stated_up_to_5_and_only_where_it_applies() {
+        let processed = Agreement { correlation: 0.9, spectra_db: 1.0 };
+        assert!(d_prime_text(1.234, 0.8, &processed).starts_with("d' 1.23, predicted"));
+        assert!(d_prime_text(37.3, 0.8, &processed).starts_with("d' above 5 (told apart at once)"));
+        let noise = d_prime_text(6.2, 0.8, &Agreement { correlation: 0.05, spectra_db: 0.4 });
+        assert!(noise.starts_with("no d': different noise") && !noise.contains("6.2"), "{noise}");
+        let other = d_prime_text(57.7, 0.8, &Agreement { correlation: 0.05, spectra_db: 12.0 });
+        assert!(other.starts_with("no d': the waveforms") && other.contains("12.0 dB"), "{other}");
+        for text in [noise, other, d_prime_text(1.0, 0.8, &processed)] {
+            assert!(text.to_lowercase().contains("not rated by people"), "{text}");
+        }
+    }
 }

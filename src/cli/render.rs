@@ -6,12 +6,14 @@ use anyhow::{Context as _, bail};
 use serde_json::json;
 use shagreen_core::space::LabelSource;
 use shagreen_core::texture::render::Hand;
+use shagreen_core::texture::tap::TAP_AMPLITUDES_MPS2;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::library::Library;
 use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav_as};
 use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
-use shagreen_studio::export::{Rendered, lost_in_wav};
+use shagreen_studio::export::{Rendered, lost_in_wav, lost_of_tap};
+use shagreen_studio::levels::{Levels, WINDOW_SECS, contact_level, levels};
 use shagreen_studio::render::{SEAM_SECS, SampleFormat, render_along, render_mixture};
 use shagreen_studio::report::Reporter as _;
 
@@ -21,14 +23,14 @@ use crate::cli::progress::{Progress, in_ms};
 use crate::cli::target::SoundArgs;
 use crate::cli::wav_name::check_wav_name;
 use crate::cli::words::words;
-use shagreen_studio::replace::{refuse_foreign_signal, refuse_inputs};
+use shagreen_studio::replace::{refuse_foreign_signal, refuse_signal_over_inputs};
 use shagreen_studio::sound::Sound;
-use shagreen_studio::tap_transients::add_tap_transients;
+use shagreen_studio::tap_transients::{AddedTaps, add_tap_transients};
 
 /// Renders the acceleration of a texture at the tip of a tool to a mono WAV file of 32-bit floats in m/s², with a
 /// sidecar file (.json) that describes it.
 ///
-/// Each contact in a recorded stroke adds a tap transient if the texture has one, as in playback.
+/// Each landing in a recorded stroke adds a tap transient if the texture has one, as in playback.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -68,7 +70,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         None => whole(chosen.rate(&library)?)?,
     };
     let beside = sidecar_path(&args.out);
-    refuse_inputs(&[&args.out, &beside], &[motion.stroke_path(), args.sound.library_path()])?;
+    refuse_signal_over_inputs(&args.out, &[motion.stroke_path(), args.sound.library_path()])?;
     refuse_foreign_signal(&args.out)?;
     wav::check_length((motion.seconds() * f64::from(rate_hz)).round() as u64)?;
     chosen.note_limits(&library, &motion.trace(), &Printed);
@@ -79,14 +81,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let sidecar = sidecar(args, &library, &chosen, &motion, rate_hz);
     let seconds = samples.len() as f64 / f64::from(rate_hz);
     let follows_stroke = motion.stroke_path().is_some();
-    if let (Motion::Stroke { contacts, .. }, Some(tap)) = (motion, chosen.tap) {
-        let model_rate_hz = chosen.rate(&library)?.0;
-        add_tap_transients(&mut samples, rate_hz, model_rate_hz, contacts.into_track()?, tap.into())?;
-    }
-    // Accumulated here: a copy of one hour in `f64` would need gigabytes.
-    let wide = samples.iter().map(|sample| f64::from(*sample));
-    let peak = wide.clone().fold(0.0, |peak: f64, sample| peak.max(sample.abs()));
-    let rms = (wide.map(|sample| sample * sample).sum::<f64>() / samples.len().max(1) as f64).sqrt();
+    // Before the tap transients, which would hide the level of everything else.
+    let contact_rms = contact_level(&samples, rate_hz, |secs| motion.contact_at(secs).force.0 > 0.0);
+    let taps = add_taps(&mut samples, &library, &chosen, motion, rate_hz)?;
+    let Levels { rms, peak } = levels(&samples);
     let level = if args.normalize { Level::Peak } else { Level::Kept };
     let encoding = WavEncoding { samples: args.bits, level };
     let full_scale = encoding.full_scale(&samples);
@@ -95,13 +93,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         Printed.note("players clip what exceeds 1 m/s²; --normalize scales the signal for them");
     }
     let texture = chosen.texture.as_deref().and_then(|id| library.index_of(id));
-    let lost = lost_in_wav(Rendered {
+    let rendered = Rendered {
         texture: texture.map(|index| &library.textures[index]),
         tap: chosen.tap,
         rate: Hertz(f64::from(rate_hz)),
         follows_stroke,
-    });
-    for lost in &lost {
+    };
+    if let Some(lost) = lost_of_tap(rendered) {
         Printed.note(&format!("not stored in the file: {lost}"));
     }
     output::print(
@@ -111,6 +109,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "sidecar": beside.display().to_string(),
             "rms": rms,
             "peak": peak,
+            "peak_landing_s": taps.peak_landing_secs,
+            "contact_rms_median": contact_rms,
             "full_scale": full_scale,
             "rate_hz": rate_hz,
             "seconds": seconds,
@@ -121,18 +121,54 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "blend": chosen.mode.id(),
             "shape": chosen.shape_text(),
             "seed": args.seed,
-            "lost": lost,
+            "lost": lost_in_wav(rendered),
         }),
         || {
             format!(
-                "Rendered {seconds:.3} s at {rate_hz} Hz of {}: rms {rms:.4} m/s², peak {peak:.4} m/s²\n{}\n{}",
+                "Rendered {seconds:.3} s at {rate_hz} Hz of {}: rms {rms:.4} m/s², peak {peak:.4} m/s²{}{}\n{}\n{}",
                 chosen.parents_text(&library),
+                taps.peak_landing_secs.map_or(String::new(), |secs| format!(" at a landing at {secs:.2} s")),
+                contact_text(contact_rms.filter(|_| follows_stroke)),
                 args.out.display(),
                 beside.display()
             )
         },
     );
     Ok(())
+}
+
+/// Adds the tap transients of a recorded stroke, and notes those that are limited.
+fn add_taps(
+    samples: &mut [f32],
+    library: &Library,
+    chosen: &Sound,
+    motion: Motion,
+    rate_hz: u32,
+) -> anyhow::Result<AddedTaps> {
+    let (Motion::Stroke { contacts, .. }, Some(tap)) = (motion, chosen.tap) else {
+        return Ok(AddedTaps::default());
+    };
+    let model_rate_hz = chosen.rate(library)?.0;
+    let taps = add_tap_transients(samples, rate_hz, model_rate_hz, contacts.into_track()?, tap.into())?;
+    if taps.n_limited > 0 {
+        Printed.note(&format!(
+            "{} so fast that the tap transient would exceed {} m/s², to which it is limited",
+            counted_landings(taps.n_limited),
+            TAP_AMPLITUDES_MPS2.end()
+        ));
+    }
+    Ok(taps)
+}
+
+fn counted_landings(n: usize) -> String {
+    if n == 1 { "1 landing is".to_owned() } else { format!("{n} landings are") }
+}
+
+/// Returns the level of the texture without its tap transients, as text.
+fn contact_text(contact_rms: Option<f64>) -> String {
+    contact_rms.map_or(String::new(), |rms| {
+        format!("; median rms of {WINDOW_SECS} s in contact, without taps: {rms:.4} m/s²")
+    })
 }
 
 fn bits_word(of: SampleType) -> &'static str {

@@ -5,8 +5,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::bail;
 use shagreen_core::dsp::mfcc::{MfccOptions, htk, paper, recommended};
-use shagreen_core::people::mds::{MAX_DIMS, Ties};
-use shagreen_core::people::ratings::{AdjectivePair, OUTLIER_LIMIT};
+use shagreen_core::people::mds::{MAX_DIMS, Transform};
+use shagreen_core::people::ratings::AdjectivePair;
 use shagreen_core::people::sorting::Finding;
 use shagreen_core::space::features::NamedTexture;
 use shagreen_core::space::selection::Method;
@@ -48,9 +48,11 @@ pub(crate) struct Args {
     /// Number of dimensions of the perceptual space.
     #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=MAX_DIMS as i64))]
     dimensions: u8,
-    /// Treatment of tied dissimilarities: primary allows different disparities, secondary keeps them equal.
-    #[arg(long, default_value = "primary", value_parser = ["primary", "secondary"])]
-    ties: String,
+    /// Treatment of tied dissimilarities: primary allows different disparities, secondary keeps them equal. With
+    /// interval, disparities are a linear function of the dissimilarities (metric scaling). Auto is primary, or interval
+    /// if the solution of primary is degenerate.
+    #[arg(long, default_value = "auto", value_parser = words(Ties::ALL, Ties::id))]
+    ties: Ties,
     /// Rotate the second axis to a right angle with the first.
     #[arg(long)]
     orthogonal: bool,
@@ -81,6 +83,23 @@ pub(crate) struct Args {
     /// Print the report as one JSON object.
     #[arg(long)]
     json: bool,
+}
+
+/// Transformation of the dissimilarities; `None` selects it.
+#[derive(Clone, Copy, Debug)]
+struct Ties(Option<Transform>);
+
+impl Ties {
+    const ALL: [Self; 4] = [
+        Self(None),
+        Self(Some(Transform::PrimaryTies)),
+        Self(Some(Transform::SecondaryTies)),
+        Self(Some(Transform::Interval)),
+    ];
+
+    fn id(self) -> &'static str {
+        self.0.map_or("auto", Transform::id)
+    }
 }
 
 /// Kind of positions; `None` selects it for each axis.
@@ -176,11 +195,9 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
         );
         return Err(Usage(text).into());
     }
-    let mut mds = usual.mds.clone();
-    mds.ties = if args.ties == "secondary" { Ties::Secondary } else { Ties::Primary };
     Ok(SpaceOptions {
         n_dims: usize::from(args.dimensions),
-        mds,
+        transform: args.ties.0,
         axes: args.axes.clone().map(|axes| axes.0),
         is_orthogonal: args.orthogonal,
         features: args.features,
@@ -204,9 +221,10 @@ fn in_words(args: &Args, built: &SpaceBuild, validation: Vec<String>) -> String 
     let pairs: Vec<String> = built.adjectives.iter().map(|adjective| adjective.pair.name()).collect();
     let mut lines = vec![
         format!(
-            "Built a space of {} ({}): {}",
+            "Built a space of {} (judgments: {}; positions: {}): {}",
             counted(built.textures.len(), "texture"),
             built.source.label(),
+            built.place_source().label(),
             args.out.display()
         ),
         format!("Rated on {}: {}.", counted(pairs.len(), "adjective pair"), pairs.join(", ")),
@@ -223,7 +241,12 @@ fn outliers_explained(built: &SpaceBuild) -> Option<String> {
         built.similarity.findings.iter().any(|finding| matches!(finding, Finding::Outlying { .. }));
     (is_rater || is_sorter).then(|| {
         format!(
-            "An outlier correlates far less with the mean of the other participants than they do (ratings: r below {OUTLIER_LIMIT}). Nobody is excluded for it: check for swapped poles or confused names, and build again without the outlier to see its influence."
+            "Outliers {}: nobody is excluded for it. Check for swapped poles or confused names, and build again without the outlier to see its influence.",
+            match (is_sorter, is_rater) {
+                (true, true) => "in the sorting table and in the ratings table",
+                (true, false) => "in the sorting table",
+                _ => "in the ratings table",
+            }
         )
     })
 }

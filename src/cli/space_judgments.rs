@@ -20,6 +20,7 @@ use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
 use crate::cli::space_place::parse_scale;
 use shagreen_studio::file;
+use shagreen_studio::judgments::rescaled;
 use shagreen_studio::near_names::meant;
 
 #[derive(clap::Args)]
@@ -94,14 +95,10 @@ impl JudgmentArgs {
 
     /// Converts a rating on another scale to 0..100.
     fn rescaled(&self, rating: Rating) -> anyhow::Result<Rating> {
-        let (Some(scale), Some(value)) = (self.scale, rating.value) else { return Ok(rating) };
-        if !scale.contains(value) {
-            let Rating { participant, texture, pair, .. } = rating;
-            bail!(
-                "{participant} rated {texture} {value} on {pair}, which is not on the scale of --scale; correct the rating or the scale"
-            )
+        match self.scale {
+            Some(scale) => rescaled(rating, scale).map_err(|reason| anyhow!("{reason} (--scale)")),
+            None => Ok(rating),
         }
-        Ok(Rating { value: Some(scale.to_space(value)), ..rating })
     }
 
     /// Returns the source of the judgments. Participants with names of simulated raters are never taken for people.

@@ -13,11 +13,13 @@ use shagreen_formats::hid_text::is_hid_text;
 use shagreen_formats::stroke::{PenSample, PressUnit, Stroke, TimedContact};
 use shagreen_formats::stroke_csv::read_stroke_csv;
 use shagreen_formats::svc::{PenMapping, pen_samples, read_svc};
+use shagreen_formats::wav::TraceV1;
 
 use crate::cli::hid_files::{meters, read_pen_recording};
 use crate::cli::output;
 use crate::cli::stroke_args::{OF_HID, OF_PRESSURE, OF_SVC, StrokeArgs};
 use shagreen_studio::file;
+use shagreen_studio::trace::{stroke_trace, track_trace};
 
 /// Speed and force over time, for at most [`MAX_TRACK_SECS`].
 pub(crate) enum StrokeContacts {
@@ -171,6 +173,17 @@ impl StrokeContacts {
         }
     }
 
+    /// Returns speed, force and known positions and impact speeds over time, for a sidecar.
+    pub(crate) fn trace(&self) -> TraceV1 {
+        match self {
+            Self::Track(track) => track_trace(track),
+            Self::Given(contacts) => {
+                let impacts = TimedContact::known_impacts(contacts);
+                stroke_trace(self.duration_secs(), &mut |secs: f64| given_at(contacts, secs), &impacts)
+            }
+        }
+    }
+
     /// Returns the stroke for an output, which replays positions: given speeds are integrated along a line.
     pub(crate) fn into_track(self) -> anyhow::Result<Track> {
         let duration_secs = self.duration_secs();
@@ -211,10 +224,13 @@ fn around(contacts: &[TimedContact], time_secs: f64) -> (Option<&TimedContact>, 
     (after.checked_sub(1).and_then(|i| contacts.get(i)), contacts.get(after))
 }
 
-/// Returns the impact speed of a contact that begins at this time: the highest that is stated around it.
+/// Returns the impact speed of a contact that begins at this time, if the table states it.
 fn impact_mps_at(contacts: &[TimedContact], time_secs: f64) -> Option<f64> {
-    let (from, to) = around(contacts, time_secs);
-    [from, to].into_iter().flatten().filter_map(|contact| contact.impact_mps).reduce(f64::max)
+    match around(contacts, time_secs) {
+        (Some(from), Some(to)) => from.impact_mps_before(to),
+        (Some(last), None) => last.impact_mps,
+        (None, _) => None,
+    }
 }
 
 /// Interpolates given speed and force linearly; zero outside the stroke.
@@ -289,6 +305,30 @@ mod tests {
         for (time_secs, impact_mps) in [(0.15, Some(0.05)), (0.45, Some(0.2)), (0.65, None)] {
             assert_eq!(track.impact_mps_at(time_secs), impact_mps, "{time_secs} s");
         }
+    }
+
+    #[test]
+    fn a_table_that_starts_in_contact_lands_only_if_its_first_line_states_an_impact() {
+        let contact =
+            |time_secs, force_n, impact_mps| TimedContact { time_secs, speed_mps: 0.1, force_n, impact_mps };
+        // The speed of the second line is not that of an impact.
+        let landings = |impact_mps| {
+            let table = vec![
+                contact(0.0, 1.0, impact_mps),
+                contact(0.5, 1.0, Some(0.3)),
+                contact(0.6, 0.0, None),
+                contact(0.7, 0.0, None),
+                contact(0.8, 1.0, None),
+            ];
+            let track = StrokeContacts::Given(table).into_track().unwrap();
+            track.landings().iter().map(|landing| (landing.time_secs, landing.impact_mps)).collect::<Vec<_>>()
+        };
+        for impact_mps in [None, Some(0.0)] {
+            let landings = landings(impact_mps);
+            assert!(landings.len() == 1 && (landings[0].0 - 0.7).abs() < 0.003, "{landings:?}");
+        }
+        let landings = landings(Some(0.2));
+        assert_eq!((landings.len(), landings[0]), (2, (0.0, Some(0.2))));
     }
 
     #[test]

@@ -48,7 +48,7 @@ struct TargetArgs {
     authored: Option<String>,
 }
 
-/// Textures to select from.
+/// Textures to select from. Those that take no part in the interpolation of the selected texture have no position.
 pub(crate) struct Textures {
     pub(crate) library: Library,
     project: Option<Project>,
@@ -81,10 +81,21 @@ impl SoundArgs {
             .map(|path| load_project(path, &permitted_libraries(), &Printed))
             .transpose()?;
         let library = match &project {
-            Some(project) => textures_of(project)?,
+            Some(project) => self.textures_in(project)?,
             None => self.library.load()?,
         };
         Ok(Textures { library, project })
+    }
+
+    /// The textures of a project, for its authored texture that the arguments name, or for a point with the pins that they
+    /// name.
+    fn textures_in(&self, project: &Project) -> anyhow::Result<Library> {
+        let textures = textures_of(project)?;
+        let Some(name) = &self.target.authored else {
+            return Ok(project.with_places_of(&textures, |id| self.blending.pins(id)));
+        };
+        let locked = &find_authored(project, name)?.blend.locked;
+        Ok(project.with_places_of(&textures, |id| locked.contains(id)))
     }
 
     /// Returns the library file or folder, or the project, that was named.

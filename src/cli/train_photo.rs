@@ -26,7 +26,7 @@ use shagreen_studio::file;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
 /// Trains predictors of roughness and hardness from pictures and reports their leave-one-texture-out errors: each
-/// texture is predicted from a training on the other textures and on pictures of random materials.
+/// texture is predicted by a model trained on the other textures and on pictures of random materials.
 ///
 /// Random materials (also called drawn materials) are simulated surfaces whose parameters are drawn at random. Their
 /// roughness and hardness are computed; no person rated them. Statistics of the picture need no other file; a

@@ -253,9 +253,15 @@ fn what_is_read_is_not_written_over() {
     bench.fails(
         &format!("render --texture cork {STEADY} --library mine.json -o mine.wav"),
         1,
-        &["mine.json"],
+        &["the signal mine.wav gets a sidecar file", "another name for the signal", "mine.json"],
     );
     assert_eq!(std::fs::read(bench.path("mine.json")).unwrap(), starter);
+    bench.write("hand.json", "t_s,speed,force\n0,100,1\n1,100,1\n");
+    bench.fails(
+        "render --texture cork --stroke hand.json -o hand.wav",
+        1,
+        &["the signal hand.wav gets a sidecar file", "hand.json"],
+    );
     // An unrelated file next to the signal is not a sidecar.
     bench.write("notes.json", "{\"mine\": true}");
     bench.fails(&format!("render --texture cork {STEADY} -o notes.wav"), 1, &["would replace", "notes.json"]);

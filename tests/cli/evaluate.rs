@@ -41,9 +41,11 @@ fn check(library: &str, source: &str) -> Value {
         assert_eq!(of("n") as usize, textures.len());
         let sum: f64 = textures.iter().map(|texture| texture["error_db"][method].as_f64().unwrap()).sum();
         assert!((sum / of("n") - of("error_db_mean")).abs() < 1e-9);
-        for field in ["error_db_median", "level_error_db_mean", "top5", "nrs_mean"] {
+        for field in ["error_db_median", "level_error_db_mean", "shape_error_db_mean", "top5", "nrs_mean"] {
             assert!(of(field).is_finite());
         }
+        // The overall level is a part of the error.
+        assert!(of("shape_error_db_mean") <= of("error_db_mean"), "{method}: {report}");
         let summary = if method == "nearest" { &report["nearest"] } else { &report["modes"][method] };
         let signals = |field: &str| summary["signals"][field].as_f64().unwrap();
         assert!(signals("n") >= 3.0 && signals("mean_difference_db") < 0.5, "{method}: {summary}");
@@ -63,6 +65,9 @@ fn the_field_evaluates_best_on_the_starter_library() {
     let error = |method: &str| number(&report, method, "error_db_mean");
     // 43 % lower when this test was written.
     assert!(error("field") < 0.6 * error("paper"), "{report}");
+    // The positions are computed from the level. Without the level, the gain over a copy is smaller (28 %).
+    let shape = |method: &str| number(&report, method, "shape_error_db_mean");
+    assert!(shape("field") < 0.8 * shape("nearest"), "{report}");
 }
 
 #[test]
@@ -82,9 +87,14 @@ fn a_table_says_what_was_measured_and_which_is_best() {
     );
     let lines: Vec<&str> = said.stdout.lines().collect();
     assert!(lines[2].starts_with("  nearest") && lines[3].starts_with("* field"), "{said:?}");
+    assert!(
+        lines[1].contains("shape error") && said.stdout.contains("contains part of its answer"),
+        "{said:?}"
+    );
     assert!(!said.stdout.contains("signal error:") && bench.files().is_empty(), "{said:?}");
     let said = bench.run("evaluate leave-one-out --library simulated --signals 1 --seconds 4 --blend paper");
     assert!(said.stdout.contains("simulated raters") && said.stdout.contains("* nearest"), "{said:?}");
+    assert!(!said.stdout.contains("part of its answer"), "positions from sorts and ratings: {said:?}");
 }
 
 #[test]

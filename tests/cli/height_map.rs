@@ -35,6 +35,8 @@ fn a_picture_of_ridges_is_felt_across_them_and_not_along_them() {
     );
     let close = |key: &str, wanted: f64| (made[key].as_f64().unwrap() - wanted).abs() < 0.01;
     assert!(close("side_mm", 40.0) && close("low_um", -100.0) && close("high_um", 100.0), "{made}");
+    let said = bench.run("texture psd --library ridged.json --texture glass --speed 100 --force 1");
+    assert!(said.stderr.contains("has a height map, which depends on position"), "{}", said.stderr);
     let felt = |x_mm_per_s: f64, y_mm_per_s: f64| -> Vec<f64> {
         bench.write("stroke.csv", stroke(x_mm_per_s, y_mm_per_s));
         bench
@@ -71,8 +73,6 @@ fn size_and_height_are_asked_for_and_assumptions_are_said() {
     bench.fails(&format!("{relief} --height-um 40"), 2, &["--side-mm"]);
     bench.fails(&format!("{relief} --side-mm 40 --height-um 40 --level 1"), 2, &["--level"]);
     bench.fails(&format!("{relief} --side-mm 40 --height-um 40 --width 40"), 2, &["--width"]);
-    bench.fails(&format!("{relief} --side-mm 4000 --height-um 40"), 1, &["1 to 1000 mm", "ridges.png"]);
-    bench.fails(&format!("{relief} --side-mm 40 --height-um 40000"), 1, &["10 mm", "ridges.png"]);
     let photo = image::RgbImage::from_fn(300, 200, |x, y| image::Rgb([(x / 2) as u8, (y % 40) as u8, 90]));
     let mut png = std::io::Cursor::new(Vec::new());
     photo.write_to(&mut png, image::ImageFormat::Png).unwrap();
@@ -86,4 +86,42 @@ fn size_and_height_are_asked_for_and_assumptions_are_said() {
     let again =
         "library relief photo.png --side-mm 30 --height-um 50 --texture cork --library photo.json -o 2.json";
     assert!(bench.run(again).stderr.contains("already has a height map, which is replaced"));
+}
+
+/// A size out of range is named by its option, with its value and the range; one that is possible for no tip is a note.
+#[test]
+fn impossible_sizes_are_named_and_steep_heights_are_noted() {
+    let bench = Bench::new();
+    bench.write("ridges.png", ridges());
+    let relief = "library relief ridges.png --texture cork -o no.json";
+    let words = ["4000", "--side-mm", "1.2 to 1000 mm"];
+    bench.fails(&format!("{relief} --side-mm 4000 --height-um 40"), 2, &words);
+    bench.fails(&format!("{relief} --side-mm 0 --height-um 40"), 2, &["--side-mm", "1.2 to 1000 mm"]);
+    let words = ["15000", "--height-um", "0.01 to 10000 µm"];
+    bench.fails(&format!("{relief} --side-mm 2 --height-um 15000"), 2, &words);
+    // White beside black in each sample.
+    let checks =
+        image::GrayImage::from_fn(256, 256, |x, y| image::Luma([if (x + y) % 2 == 0 { 0 } else { 255 }]));
+    checks.save(bench.path("checks.png")).unwrap();
+    let steep = "library relief checks.png --side-mm 2 --height-um 9000 --texture cork -o no.json";
+    let words = ["--height-um 9000", "--side-mm 2", "use at most", "checks.png"];
+    bench.fails(steep, 1, &words);
+
+    let of = |height_um: &str| {
+        bench.run(&format!(
+            "library relief ridges.png --side-mm 10 --height-um {height_um} --texture cork -o made.json --json"
+        ))
+    };
+    // Cosine ridges with a period of 1.25 mm: the steepest slope of 2 mm is atan(π 2 / 1.25) = 79°.
+    let said = of("2000");
+    let note = said.stderr.lines().find(|line| line.contains("slopes of 79°"));
+    assert!(
+        note.is_some_and(|line| line.starts_with("note: ") && line.contains("larger side")),
+        "{}",
+        said.stderr
+    );
+    let made: serde_json::Value = serde_json::from_str(&said.stdout).unwrap();
+    assert!(made["impossible"].as_str().unwrap().contains("79°"), "{made}");
+    let said = of("50");
+    assert!(!said.stderr.contains("slopes") && said.stdout.contains("\"impossible\":null"), "{said:?}");
 }

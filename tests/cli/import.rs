@@ -93,6 +93,40 @@ fn own_models_leave_as_hatt_and_come_back() {
 }
 
 #[test]
+fn all_textures_are_exported_at_once_and_replaced_only_when_that_was_said() {
+    let bench = Bench::new();
+    let all = "export --all --format hatt -o made";
+    let done = bench.json(all);
+    let exported = done["exported"].as_array().unwrap();
+    assert_eq!((exported.len(), done["files"].as_array().unwrap().len()), (25, 25));
+    assert!(exported.iter().any(|one| one["id"] == "cork" && one["files"][0] == "made/cork.xml"), "{done}");
+    assert!(done["lost"].as_array().unwrap().contains(&"the tap transient".into()), "{done}");
+    // The same files as those of single exports, and importable together.
+    bench.json("export --texture cork --format hatt -o cork.xml");
+    let bytes = |name: &str| std::fs::read(bench.path(name)).unwrap();
+    assert_eq!(bytes("made/cork.xml"), bytes("cork.xml"));
+    assert_eq!(bench.json("import hatt made --out back.json")["imported"], 25);
+
+    bench.fails(all, 1, &["25 of the 25 files exist already", "--replace", "made"]);
+    let said = bench.run(&format!("{all} --replace"));
+    assert_eq!(said.code, 0, "{}", said.stderr);
+    assert_eq!(said.stdout.lines().count(), 26, "{}", said.stdout);
+    assert!(said.stdout.contains("cork: made/cork.xml\n") && said.stdout.contains("Exported 25 textures"));
+    let n_noted = said.stderr.matches("not stored in the files: the tap transient").count();
+    assert_eq!(n_noted, 1, "{}", said.stderr);
+    bench.write("made/glass.xml", "mine");
+    bench.fails(&format!("{all} --replace"), 1, &["would replace a file of another kind", "glass.xml"]);
+    bench.fails("export --all --format hatt -o cork.xml", 1, &["folder", "cork.xml"]);
+    bench.fails("export --all --texture cork --format hatt -o x", 2, &["--all"]);
+    bench.fails("export --format hatt -o x", 2, &["--texture"]);
+    // The textures of a project are those of its library and those added to it.
+    bench.run("project new --out one.shagreen");
+    assert!(bench.path("one.shagreen").exists());
+    let of_project = bench.json("export --all --project one.shagreen --format hatt -o of_project");
+    assert_eq!(of_project["exported"].as_array().unwrap().len(), 25);
+}
+
+#[test]
 fn one_bad_model_does_not_keep_the_others_out() {
     let bench = Bench::new();
     std::fs::create_dir(bench.path("models")).unwrap();
@@ -288,6 +322,41 @@ fn what_is_odd_in_a_recording_is_said() {
     let reason = done["failed"][0]["reason"].as_str().unwrap();
     assert!(reason.starts_with("no signal: ") && !reason.contains("dead axis"), "{reason}");
     assert!(done["warnings"].to_string().contains("dead axis"), "{done}");
+}
+
+/// Noise with a line at 50 Hz, at four speeds; the same 50 times stronger is in a wrong unit.
+#[test]
+fn hum_wrong_units_and_what_the_model_rate_loses_are_said() {
+    let bench = Bench::new();
+    let table = |scale: f64, hum: f64| {
+        let noise = shagreen_core::maths::rng::lcg_noise(32_000, 3);
+        let mut text = "t_s,a [m/s^2],v [mm/s],F [N]\n".to_owned();
+        let mut smooth = 0.0;
+        for (i, x) in noise.iter().enumerate() {
+            smooth = 0.7 * smooth + x;
+            let t = i as f64 / 2000.0;
+            let a = scale * (smooth + hum * (std::f64::consts::TAU * 50.0 * t).sin());
+            writeln!(text, "{t:.4},{a:.5},{},1", 50 * (1 + i / 8000)).unwrap();
+        }
+        text
+    };
+    bench.write("hum.csv", table(1.0, 1.0));
+    let done = bench.json("import recording hum.csv --out hum.json --rate 1000");
+    let warnings = done["warnings"].to_string();
+    assert!(
+        warnings.contains("mains hum: line at 50 Hz") && warnings.contains("at every tip speed"),
+        "{done}"
+    );
+    let notes = done["notes"].to_string();
+    assert!(
+        notes.contains("model rate 1000 Hz, order") && notes.contains("--rate 2000 keeps more"),
+        "{notes}"
+    );
+    bench.write("loud.csv", table(500.0, 0.0));
+    let done = bench.json("import recording loud.csv --out loud.json");
+    let warnings = done["warnings"].to_string();
+    assert!(warnings.contains("implausible acceleration") && !warnings.contains("mains hum"), "{done}");
+    assert!(!done["notes"].to_string().contains("keeps more"), "{done}");
 }
 
 #[test]

@@ -112,10 +112,27 @@ fn a_folder_becomes_textures_with_and_without_a_lay() {
     assert!(brushed["anchors_along"].is_array() && felt["anchors_along"].is_null(), "{brushed}");
     assert!((number(&brushed["turn_deg"]).abs() - 90.0).abs() < 10.0, "across the lay is at 90°");
     assert_eq!(brushed["licence"], "CC-BY-4.0");
-    // The level across the lay, which the model plays without a direction.
-    let psd = bench.json("texture psd --library lib.json --texture brushed --speed 20 --force 0.2");
-    let level_db = 20.0 * (number(&psd["rms"]) / (9.806_65 * LEVEL_G)).log10();
+    // The level across the lay, which is that of strokes at 90°.
+    let psd = |direction: &str| {
+        bench.json(&format!(
+            "texture psd --library lib.json --texture brushed --speed 20 --force 0.2{direction}"
+        ))
+    };
+    let across = psd(" --direction 90");
+    let level_db = 20.0 * (number(&across["rms"]) / (9.806_65 * LEVEL_G)).log10();
     assert!(level_db.abs() < 1.0, "{level_db} dB");
+    assert_eq!(across["direction_degrees"], 90.0);
+    // Without a direction it is that of a stroke to the right, as in a rendered steady stroke.
+    let right = psd("");
+    assert_eq!(right["direction_degrees"], 0.0);
+    assert!((number(&psd(" --direction 180")["rms"]) / number(&right["rms"]) - 1.0).abs() < 1e-9);
+    let steady =
+        "render --library lib.json --texture brushed --speed 20 --force 0.2 --seconds 60 -o right.wav";
+    let rendered = number(&bench.json(steady)["rms"]);
+    let error_db = 20.0 * (rendered / number(&right["rms"])).log10();
+    // A minute of noise some tens of Hz wide: a standard error of 2 %.
+    assert!(error_db.abs() < 0.6, "{error_db} dB");
+    assert!(number(&right["rms"]) < 0.8 * number(&across["rms"]), "{right}");
 }
 
 #[test]

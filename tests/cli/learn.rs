@@ -81,6 +81,9 @@ fn a_recording_has_the_attributes_of_the_texture_it_was_made_of() {
         assert!((value - rated).abs() < within && sd > 1.0, "{name}: {value} ± {sd} for {rated}");
     }
     assert_eq!(said["label_source"][0], "simulated");
+    // The labels are named, because other labels give other predictions.
+    let text = bench.run("predict attributes --recording stroke.csv --set acceleration_unit=m/s^2").stdout;
+    assert!(text.contains("(simulated raters)") && text.contains("--library selects them"), "{text}");
     let starter =
         bench.json("predict attributes --recording stroke.csv --set acceleration_unit=g --library simulated");
     assert!(
@@ -253,6 +256,22 @@ fn a_prompt_becomes_a_picture_a_point_a_texture_and_a_project() {
     assert_eq!(project["solo"], texture["id"]);
     assert_eq!(project["authored"][0]["blend"]["locked"][0], texture["id"]);
 
+    // The id of the texture and the next step are printed, and the step works.
+    assert_eq!(said["texture_id"], texture["id"]);
+    let text = bench.run("generate brick --out felt --size 64").stdout;
+    let (_, step) = text.split_once("to render it: shagreen ").unwrap();
+    assert!(step.contains("--library felt/texture.json --texture brick "), "{step}");
+    bench.json(step.trim_end());
+
+    // A result contains only what belongs to it: heights of an earlier one are removed, except those of others.
+    assert!(bench.path("felt/heights.png").exists());
+    let interpolated = generated(&bench, "brick", "--out felt --size 64 --interpolated");
+    assert!(interpolated.get("heights").is_none() && !bench.path("felt/heights.png").exists());
+    bench.write("felt/heights.png", "mine");
+    let line = "generate brick --out felt --size 64 --interpolated";
+    bench.fails(line, 1, &["heights.png", "another folder"]);
+    assert_eq!(std::fs::read(bench.path("felt/heights.png")).unwrap(), b"mine");
+
     // The same seed gives the same files, over the earlier ones; another seed gives another result.
     let bytes = |name: &str| std::fs::read(bench.path(&format!("made/{name}"))).unwrap();
     let (before, texture) = (bytes("picture.png"), bytes("texture.json"));
@@ -315,10 +334,14 @@ fn a_photo_has_attributes_and_what_is_none_is_refused() {
     assert!(attribute(&strange, "rough-smooth").1 > attribute(&said, "rough-smooth").1);
     bench.write("text.png", "no picture");
     image::RgbImage::new(3, 900).save(bench.path("thin.png")).unwrap();
+    bench.write("old.tif", b"II*\0\x08\0\0\0");
     bench.fails("predict attributes --photo text.png", 1, &["JPEG or PNG", "text.png"]);
+    bench.fails("predict attributes --photo old.tif", 1, &["a TIFF picture", "JPEG or PNG", "old.tif"]);
     bench.fails("predict attributes --photo thin.png", 1, &["16 x 16", "thin.png"]);
     bench.fails("predict attributes --photo nowhere.png", 1, &["nowhere.png"]);
     bench.fails("predict attributes --photo odd.png --model odd.png", 1, &["safetensors", "odd.png"]);
+    let said = bench.run("predict attributes --photo odd.png --model odd.png").stderr;
+    assert!(!said.contains("eader"), "words of the file format: {said}");
     bench.fails("predict attributes --photo odd.png --backbone odd.png", 1, &["safetensors", "odd.png"]);
     bench.fails("predict attributes --photo odd.png --prompt rough", 2, &["--prompt"]);
 }

@@ -149,6 +149,20 @@ fn a_library_is_made_of_materials_and_is_the_same_again() {
     bench.fails("library make bad.toml --out c.json", 1, &["hearst", "bad.toml"]);
 }
 
+/// A library that has other textures is replaced only if the user says so.
+#[test]
+fn a_library_with_other_textures_is_replaced_only_where_that_is_said() {
+    let bench = Bench::new();
+    bench.write("m.toml", one_material());
+    let other = only(1);
+    bench.write("mine.json", &other);
+    bench.fails("library make m.toml --out mine.json", 1, &["--replace", "mine.json"]);
+    assert_eq!(std::fs::read_to_string(bench.path("mine.json")).unwrap(), other);
+    bench.json("library make m.toml --out mine.json --replace");
+    let list = bench.json("library list --library mine.json");
+    assert_eq!(list["textures"][0]["id"], "glass");
+}
+
 /// Returns the head of the starter library's materials with only the first material.
 fn one_material() -> String {
     let first = MATERIALS.find("[[material]]").unwrap();

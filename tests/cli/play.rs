@@ -16,7 +16,7 @@ fn devices_are_listed() {
 #[test]
 fn a_steady_contact_and_a_stroke_are_played_in_real_time() {
     let bench = Bench::new();
-    bench.write("stroke.csv", "t_s,speed,force\n0,100,1\n0.4,100,1\n");
+    bench.write("stroke.csv", "t_s,speed_mm/s,force_N\n0,100,1\n0.4,100,1\n");
     for what in ["--texture cork --speed 100 --force 1 --seconds 0.4", "--at 30,70 --stroke stroke.csv"] {
         let started = std::time::Instant::now();
         let played = bench.json(&format!("play {what} --output null"));

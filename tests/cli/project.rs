@@ -1,7 +1,7 @@
 //! Projects on the command line: created, shown, and their authored textures rendered.
 
 use crate::support::Bench;
-use serde_json::json;
+use serde_json::{Value, json};
 
 #[test]
 fn the_gallery_is_listed_and_begun_from() {
@@ -75,7 +75,7 @@ fn where_the_library_of_a_project_lies_decides() {
     bench.json("project new -o near/new.shagreen");
     let begun = std::fs::read(bench.path("near/new.shagreen")).unwrap();
     let show = |library: &str| {
-        let mut wire: serde_json::Value = serde_json::from_slice(&begun).unwrap();
+        let mut wire: Value = serde_json::from_slice(&begun).unwrap();
         wire["library"] = json!({"file": library});
         bench.write("near/a.shagreen", wire.to_string());
         bench.run("project show near/a.shagreen")
@@ -93,5 +93,43 @@ fn where_the_library_of_a_project_lies_decides() {
     for library in ["//server/share/mine.json", r"\\server\share\mine.json"] {
         let said = show(library);
         assert!(said.code == 1 && said.stderr.contains("on another computer"), "{library}: {}", said.stderr);
+    }
+}
+
+/// A texture that was generated for one authored texture leaves the signals of the others as they are.
+#[test]
+fn a_second_generated_texture_leaves_the_first_authored_texture_as_it_is() {
+    let bench = Bench::new();
+    bench.json("project new -o a.shagreen");
+    let begun: Value = serde_json::from_slice(&std::fs::read(bench.path("a.shagreen")).unwrap()).unwrap();
+    let starter: Value = serde_json::from_slice(shagreen_formats::starter::starter_bytes()).unwrap();
+    let generated = |id: &str, rs: f64, is_own: bool| {
+        let mut texture = starter["textures"][3].clone();
+        texture["id"] = json!(id);
+        texture["own"] = json!(is_own);
+        texture["space"] = json!({"rough_smooth": rs, "hard_soft": 50.0, "label_source": "estimated"});
+        texture
+    };
+    let authored = |key: u32, id: &str, mode: &str| {
+        let blend = json!({"mode": mode, "weights": "barycentric", "outside": "clamped", "locked": [id]});
+        json!({"key": key, "name": id, "rough_smooth": 50.0, "hard_soft": 50.0, "blend": blend})
+    };
+    for mode in ["field", "parametric", "shared", "paper"] {
+        let rendered = |joined: &[Value]| {
+            let mut project = begun.clone();
+            project["version"] = json!("1.2");
+            project["joined"] = json!(joined);
+            project["authored"] = json!([authored(1, "first", mode), authored(2, "second", mode)]);
+            bench.write("a.shagreen", project.to_string());
+            let render = "render --project a.shagreen --authored first --speed 100 --force 1 --seconds 0.2";
+            bench.json(&format!("{render} -o out.wav"));
+            (std::fs::read(bench.path("out.wav")).unwrap(), std::fs::read(bench.path("out.json")).unwrap())
+        };
+        let first = generated("first", 49.5, true);
+        let before = rendered(std::slice::from_ref(&first));
+        assert_eq!(rendered(&[first.clone(), generated("second", 50.4, true)]), before, "{mode}");
+        let shown = bench.json("project show a.shagreen");
+        assert_eq!((&shown["joined"], &shown["own"]), (&json!(2), &json!(["first", "second"])));
+        assert_ne!(rendered(&[first, generated("second", 50.4, false)]), before, "{mode}");
     }
 }

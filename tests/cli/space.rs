@@ -183,8 +183,8 @@ fn judgments_that_make_no_space_say_why_and_write_nothing() {
         &["value in line 2 is \"512\"", "0 to 100", "r-large.csv"],
     );
     check("--sorting s.csv --ratings r.csv --relevance v.csv", 1, &["voted twice", "v.csv"]);
-    check("--sorting r.csv --ratings r.csv", 1, &["r.csv"]);
-    check("--sorting s.csv --ratings s.csv", 1, &["s.csv"]);
+    check("--sorting r.csv --ratings r.csv", 1, &["this looks like the ratings table", "r.csv"]);
+    check("--sorting s.csv --ratings s.csv", 1, &["this looks like the sorting table", "s.csv"]);
     check("--sorting s.csv --ratings r.csv --source human", 1, &["is simulated"]);
     check("--sorting s.csv --ratings r-mixed.csv", 1, &["both simulated participants and others"]);
     check("--sorting s.csv --ratings r.csv --figures s.csv", 1, &["s.csv"]);
@@ -214,7 +214,9 @@ fn a_space_is_built_from_the_tables_of_spreadsheets() {
     let rows: String = rows.lines().enumerate().map(with_columns).collect();
     bench.write("excel.csv", format!("sep=;\r\n{rows}"));
     let build = "space build --features physical --permutations 5 --sorting";
-    let said = bench.run(&format!("{build} unicode.txt --ratings excel.csv --out human.json"));
+    // With few textures and physical features, an axis may be predicted: such positions are estimates.
+    let said =
+        bench.run(&format!("{build} unicode.txt --ratings excel.csv --placement felt --out human.json"));
     assert_eq!(said.code, 0, "{said:?}");
     for words in [
         "participants \"P1\", \"p1\" look alike",
@@ -226,7 +228,7 @@ fn a_space_is_built_from_the_tables_of_spreadsheets() {
     assert!(said.stdout.contains("Rated on 5 adjective pairs: rough-smooth, hard-soft"), "{said:?}");
     let json = |name: &str| serde_json::from_str::<Value>(&text(name)).unwrap();
     // They contain the same data as the plain tables.
-    let report = bench.json(&format!("{build} s.csv --ratings r.csv --out plain.json"));
+    let report = bench.json(&format!("{build} s.csv --ratings r.csv --placement felt --out plain.json"));
     let of_tables: Vec<Value> = json("human.report.json")["warnings"].as_array().unwrap()[..2].to_vec();
     assert!(of_tables.iter().all(|warning| !report["warnings"].as_array().unwrap().contains(warning)));
     assert_eq!(
@@ -245,6 +247,55 @@ fn a_space_is_built_from_the_tables_of_spreadsheets() {
             .ends_with("nobody rated one. Positions come from simulated raters.")
     );
     assert!(!text("human.json").contains("look alike"), "participants' names are not published");
+}
+
+/// Positions that features predict are estimates, even if people rated the textures.
+#[test]
+fn predicted_positions_of_people_are_estimates() {
+    let bench = Bench::new();
+    bench.json("space panel --sorting s.csv --ratings r.csv --seed 1");
+    for name in ["s.csv", "r.csv"] {
+        bench.write(name, text(&bench, name).replace("simulated-", "person-"));
+    }
+    let build = "space build --sorting s.csv --ratings r.csv --features physical --permutations 0";
+    bench.json(&format!("{build} --placement predicted --out l.json"));
+    let list = bench.json("library list --library l.json");
+    assert!(
+        list["textures"].as_array().unwrap().iter().all(|texture| texture["label_source"] == "estimated")
+    );
+    let sources = list["axis_sources"].as_str().unwrap();
+    assert!(sources.contains("rough-smooth: predicted from vibration features"), "{sources}");
+    assert!(sources.contains("trained on human ratings"), "{sources}");
+    let library: Value = serde_json::from_str(&text(&bench, "l.json")).unwrap();
+    assert!(library["origin"].as_str().unwrap().contains("Positions come from predictions from vibration"));
+    assert!(!library["origin"].as_str().unwrap().contains("nobody rated"));
+    assert_eq!(library["textures"][0]["attributes"]["label_source"], "human");
+    bench.json("library places --library l.json --out p.csv");
+    assert!(text(&bench, "p.csv").contains(",estimated,"));
+    bench.json(&format!("{build} --placement felt --out l.json"));
+    let list = bench.json("library list --library l.json");
+    assert_eq!(
+        (&list["textures"][0]["label_source"], &list["axis_sources"]),
+        (&json!("human"), &json!(null))
+    );
+}
+
+/// Sorts into few groups have degenerate nonmetric solutions, whose stress is nearly 0.
+#[test]
+fn a_degenerate_solution_is_said_and_replaced() {
+    let bench = Bench::new();
+    bench.json("space panel --sorting s.csv --ratings r.csv --participants 1 --groups 3,6 --seed 1");
+    let build =
+        "space build --sorting s.csv --ratings r.csv --features physical --permutations 0 --out l.json";
+    let said = bench.run(build);
+    assert!(said.code == 0 && said.stderr.contains("interval scaling was used instead"), "{said:?}");
+    let report: Value = serde_json::from_str(&text(&bench, "l.report.json")).unwrap();
+    assert_eq!((&report["ties"], &report["degenerate"]["replaced"]), (&json!("interval"), &json!(true)));
+    let said = bench.run(&format!("{build} --ties primary"));
+    assert!(said.code == 0 && said.stderr.contains("primary ties gave a degenerate solution"), "{said:?}");
+    assert!(!said.stdout.contains("nearly perfect") && said.stdout.contains("is degenerate"), "{said:?}");
+    let report: Value = serde_json::from_str(&text(&bench, "l.report.json")).unwrap();
+    assert_eq!((&report["ties"], &report["stress_in_words"]), (&json!("primary"), &json!(null)));
 }
 
 #[test]
@@ -421,5 +472,5 @@ fn ratings_on_another_scale_are_noticed_and_taken() {
     let said = bench.run(&format!("{build} --ratings r7.csv --out l8.json"));
     assert!(said.code == 0 && said.stderr.contains("warning: no rating is above 7"), "{said:?}");
     let said = bench.run(&format!("{build} --ratings r7.csv --scale 1,6 --out l9.json"));
-    assert!(said.code == 1 && said.stderr.contains("not on the scale of --scale"), "{said:?}");
+    assert!(said.code == 1 && said.stderr.contains("not on the stated scale"), "{said:?}");
 }

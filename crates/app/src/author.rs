@@ -27,3 +27,4 @@ pub(crate) mod texture_menu;
 pub(crate) mod texture_picture;
 pub(crate) mod texture_row;
 pub(crate) mod texture_sheet;
+pub(crate) mod whole_space;

@@ -1,12 +1,13 @@
 //! Button that asks for a file with the dialog of the operating system. A path can always be typed instead: on a system
-//! without such a dialog, the button says so.
+//! without such a dialog, a line below the button says so.
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 use std::time::{Duration, Instant};
 
-use egui::{Button, Context, Id, Ui};
+use egui::{Button, Context, Id, Label, RichText, Ui};
 
+use crate::look::theme::tokens;
 use crate::state::background::in_background;
 use crate::strings::browse as strings;
 
@@ -26,6 +27,8 @@ pub(crate) struct Asked<'a> {
     pub(crate) name: Option<&'a str>,
     /// Whether several files may be chosen.
     pub(crate) several: bool,
+    /// Whether a folder is asked for, and not a file.
+    pub(crate) is_folder: bool,
 }
 
 /// Width that the button needs beside a path field, in points.
@@ -38,7 +41,7 @@ pub(crate) struct Browse {
     is_missing: bool,
 }
 
-/// Lets sheets open the dialog of the system by themselves. Tests, which have no dialogs, do not call it.
+/// Lets the window use the dialogs of the system. Without this call, as in tests, it behaves as on a system without them.
 pub(crate) fn allow_dialogs(ctx: &Context) {
     ctx.data_mut(|data| data.insert_temp(allowed(), true));
 }
@@ -47,10 +50,14 @@ fn allowed() -> Id {
     Id::unique("dialogs of the system")
 }
 
+fn are_allowed(ctx: &Context) -> bool {
+    ctx.data(|data| data.get_temp(allowed())).unwrap_or(false)
+}
+
 impl Browse {
     /// Opens the dialog at once, where the program may.
     pub(crate) fn begin(&mut self, ctx: &Context, asked: &Asked<'_>) {
-        if ctx.data(|data| data.get_temp::<bool>(allowed())) == Some(true) {
+        if are_allowed(ctx) {
             self.ask(ctx, asked);
         }
     }
@@ -59,15 +66,24 @@ impl Browse {
     pub(crate) fn show(&mut self, ui: &mut Ui, of: &str, asked: &Asked<'_>) -> Vec<PathBuf> {
         let chosen = self.collect();
         let button = ui.add_enabled(self.choosing.is_none(), Button::new(strings::BROWSE));
-        let help = if self.is_missing { strings::MISSING } else { strings::BROWSE_HELP };
-        let button = button.accessible_name(strings::browse_for(of)).on_hover_text(help);
+        let button = button.accessible_name(strings::browse_for(of)).on_hover_text(strings::BROWSE_HELP);
         if button.clicked() {
-            self.ask(ui.ctx(), asked);
-        }
-        if self.is_missing {
-            button.show_tooltip_text(strings::MISSING);
+            if are_allowed(ui.ctx()) {
+                self.ask(ui.ctx(), asked);
+            } else {
+                self.is_missing = true;
+            }
         }
         chosen
+    }
+
+    /// Draws the line that says that the system has no dialog, if it turned out to have none. It belongs below the row of
+    /// the button.
+    pub(crate) fn missing_ui(&self, ui: &mut Ui) {
+        if self.is_missing {
+            let text = RichText::new(strings::MISSING).color(tokens(ui.ctx()).warning);
+            ui.add(Label::new(text).wrap());
+        }
     }
 
     fn ask(&mut self, ctx: &Context, asked: &Asked<'_>) {
@@ -76,7 +92,7 @@ impl Browse {
         }
         self.is_missing = false;
         let mut dialog = rfd::AsyncFileDialog::new().set_title(asked.title);
-        if !asked.endings.is_empty() {
+        if !asked.endings.is_empty() && !asked.is_folder {
             dialog = dialog.add_filter(asked.kind, asked.endings);
         }
         if let Some(folder) = asked.folder.filter(|folder| folder.is_dir()) {
@@ -84,7 +100,10 @@ impl Browse {
         }
         // Made here, because some systems open dialogs from the main thread only.
         let ctx = ctx.clone();
-        let receiver = if let Some(name) = asked.name {
+        let receiver = if asked.is_folder {
+            let chosen = dialog.pick_folder();
+            in_background(ctx, move || paths_of(pollster::block_on(chosen)))
+        } else if let Some(name) = asked.name {
             let chosen = dialog.set_file_name(name).save_file();
             in_background(ctx, move || paths_of(pollster::block_on(chosen)))
         } else if asked.several {

@@ -2,15 +2,17 @@
 
 pub mod clipboard;
 pub mod prompt;
+pub mod relief;
 pub mod signals;
 pub mod stroke;
 
 use std::path::PathBuf;
 
-use egui::{Key, KeyboardShortcut, Modifiers};
+use egui::{Event, Key, KeyboardShortcut, Modifiers};
 
 use crate::command::clipboard::ClipboardCommand;
 use crate::command::prompt::PromptCommand;
+use crate::command::relief::ReliefCommand;
 use crate::state::leave::Leave;
 use crate::state::source::Source;
 use shagreen_core::space::heat_map::Quantity;
@@ -23,6 +25,7 @@ use crate::state::compare::{CompareCommand, Side};
 use crate::state::edit::Edit;
 use crate::state::figure_file::FigureFile;
 use crate::state::rig::Rig;
+use crate::strings::{about, relief as relief_words};
 use crate::workspace::Workspace;
 
 /// Command of the user, executed after the frame.
@@ -60,7 +63,7 @@ pub enum Command {
     OpenDevices,
     /// Duplicates the selected authored texture.
     DuplicateTexture,
-    /// Turns the stroke while the point is dragged on or off.
+    /// Turns the stroke while the point is dragged and after clicks on textures on or off.
     ToggleDragStroke,
     /// Turns the audition of the texture under the pointer on or off.
     ToggleHover,
@@ -93,8 +96,6 @@ pub enum Command {
     TakeOverOutput,
     /// Opens the import sheet.
     OpenImport,
-    /// Opens these files in the import sheet.
-    Import(Vec<Source>),
     /// Opens these files in the import sheet and predicts positions for the recordings.
     ImportHere(Vec<Source>),
     /// Reads these files as sortings, ratings or relevance votes.
@@ -117,16 +118,26 @@ pub enum Command {
     OpenPalette,
     /// Opens the guide.
     OpenGuide,
+    /// Shows version, licenses, and paths of files.
+    OpenAbout,
     /// Starts the tour.
     BeginTour,
     /// Selects the authored texture with this key and puts the keyboard focus on its name.
     RenameAuthored(u32),
+    /// Selects the authored texture with this key and opens the export sheet.
+    ExportAuthored(u32),
+    /// Puts the keyboard focus on the name of the selected authored texture.
+    RenameSelected,
+    /// Deletes the selected authored texture, unless it is the last one.
+    DeleteSelected,
     /// Command about the clipboard.
     Clipboard(ClipboardCommand),
     /// Command of the Signals workspace.
     Signals(SignalsCommand),
     /// Command about prompts and photos.
     Prompt(PromptCommand),
+    /// Command about reliefs from pictures.
+    Relief(ReliefCommand),
     /// Command about stroke recordings.
     Stroke(StrokeCommand),
     /// Command about files.
@@ -239,17 +250,20 @@ const FILES_AND_EDITS: [Command; 12] = [
     Command::Redo,
 ];
 
-const OTHERS: [Command; 25] = [
+const OTHERS: [Command; 29] = [
     Command::Clipboard(ClipboardCommand::Copy(None)),
     Command::Clipboard(ClipboardCommand::Cut(None)),
     Command::Clipboard(ClipboardCommand::Paste),
     Command::DuplicateTexture,
+    Command::RenameSelected,
+    Command::DeleteSelected,
     Command::ToggleDragStroke,
     Command::ToggleHover,
     Command::ToggleMotion,
     Command::OpenPalette,
     Command::TogglePathTool,
     Command::KeepPath,
+    Command::Relief(ReliefCommand::Begin(None, None)),
     Command::Compare(CompareCommand::Hear(Side::A)),
     Command::Compare(CompareCommand::Hear(Side::B)),
     Command::Compare(CompareCommand::Hear(Side::X)),
@@ -265,6 +279,7 @@ const OTHERS: [Command; 25] = [
     Command::OpenGuide,
     Command::OpenShortcuts,
     Command::BeginTour,
+    Command::OpenAbout,
 ];
 
 impl Command {
@@ -289,6 +304,7 @@ impl Command {
             Self::OpenPalette => Entry::new("Find a command").command_shift(Key::P),
             Self::TogglePathTool => Entry::new("Turn the path tool on or off").key(Key::P),
             Self::KeepPath => Entry::new("Add the path as a texture"),
+            Self::Relief(ReliefCommand::Begin(None, None)) => Entry::new(relief_words::TITLE),
             Self::Compare(CompareCommand::Hear(Side::A)) => {
                 Entry::new("Play A in the comparison; in Signals: feel A").key(Key::Num1)
             }
@@ -317,12 +333,15 @@ impl Command {
                 Entry::new("Paste an authored texture").command(Key::V)
             }
             Self::DuplicateTexture => Entry::new("Duplicate the authored texture").command(Key::D),
-            Self::ToggleDragStroke => Entry::new("Play or be silent while the point is dragged"),
+            Self::RenameSelected => Entry::new("Rename the authored texture").key(Key::F2),
+            Self::DeleteSelected => Entry::new("Delete the authored texture").key(Key::Delete),
+            Self::ToggleDragStroke => Entry::new("Play or be silent while dragging and after clicks"),
             Self::ToggleHover => Entry::new("Play textures under the pointer, or do not"),
             Self::ToggleMotion => Entry::new("Turn animations off or on"),
             Self::OpenGuide => Entry::new("Open the guide"),
             Self::OpenShortcuts => Entry::new("Keyboard shortcuts").key(Key::F1),
             Self::BeginTour => Entry::new("Start the tour"),
+            Self::OpenAbout => Entry::new(about::ABOUT),
             _ => return None,
         })
     }
@@ -338,27 +357,53 @@ impl Command {
     }
 }
 
+fn was_writing_id() -> egui::Id {
+    egui::Id::unique("a text field had the focus")
+}
+
+/// Whether a text field had the keyboard focus when [`pressed`] was last called.
+pub(crate) fn was_writing(ctx: &egui::Context) -> bool {
+    ctx.data(|data| data.get_temp(was_writing_id())).unwrap_or(false)
+}
+
 /// Commands whose shortcuts were pressed in this frame. Shortcuts without modifiers apply only if nothing or `canvas`
 /// has the keyboard focus, because buttons and text fields use those keys themselves. They do not apply in the frame
 /// after a text field lost the focus either: the key was still meant for the field.
 pub fn pressed(ctx: &egui::Context, canvas: egui::Id) -> Vec<Command> {
     let focused = ctx.memory(egui::Memory::focused);
     let is_writing = ctx.text_edit_focused();
-    let was_writing_id = egui::Id::unique("a text field had the focus");
     let was_writing =
-        ctx.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default(was_writing_id), is_writing));
+        ctx.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default(was_writing_id()), is_writing));
     let plain_keys_are_ours = focused.is_none_or(|f| f == canvas) && !was_writing;
     // The shortcut of redo contains that of undo, and that of "save as" contains that of "save". Longer ones come
     // first.
     let has_shift = |c: &Command| c.shortcut().is_some_and(|s| s.modifiers.shift);
     let mut commands: Vec<Command> = listed().collect();
     commands.sort_by_key(|c| !has_shift(c));
-    commands.retain(|command| {
-        let Some(shortcut) = command.shortcut() else { return false };
+    let keys = keys_in_order(ctx);
+    let mut found: Vec<(usize, Command)> = Vec::new();
+    for command in commands {
+        let Some(shortcut) = command.shortcut() else { continue };
         let plain = shortcut.modifiers == Modifiers::NONE;
         let is_event = matches!(command, Command::Clipboard(_));
-        !is_event && (plain_keys_are_ours || !plain) && ctx.input_mut(|i| i.consume_shortcut(&shortcut))
-    });
-    commands.extend(clipboard::pressed(ctx).into_iter().map(Command::Clipboard));
-    commands
+        if !is_event && (plain_keys_are_ours || !plain) && ctx.input_mut(|i| i.consume_shortcut(&shortcut)) {
+            let place = keys.iter().position(|(modifiers, key)| {
+                *key == shortcut.logical_key && modifiers.matches_logically(shortcut.modifiers)
+            });
+            found.push((place.unwrap_or(keys.len()), command));
+        }
+    }
+    // A slow frame has several keys: what was undone first is not saved.
+    found.sort_by_key(|(place, _)| *place);
+    let commands = found.into_iter().map(|(_, command)| command);
+    commands.chain(clipboard::pressed(ctx).into_iter().map(Command::Clipboard)).collect()
+}
+
+/// Keys pressed in this frame with their modifiers, in the order in which they were pressed.
+fn keys_in_order(ctx: &egui::Context) -> Vec<(Modifiers, Key)> {
+    let key = |event: &Event| match event {
+        Event::Key { key, modifiers, pressed: true, .. } => Some((*modifiers, *key)),
+        _ => None,
+    };
+    ctx.input(|i| i.events.iter().filter_map(key).collect())
 }

@@ -3,13 +3,16 @@
 //! Input: values and text. Output: egui shapes. Nothing here depends on a project.
 
 pub mod axes;
+pub(crate) mod border;
 pub(crate) mod chart_ui;
 pub(crate) mod drag;
 pub mod icon;
 pub(crate) mod icons;
 pub(crate) mod label_places;
+pub(crate) mod list;
 pub(crate) mod map_plot;
 pub(crate) mod motion;
+pub(crate) mod notice;
 pub(crate) mod plot;
 pub(crate) mod scale;
 pub(crate) mod sheet_frame;

@@ -77,8 +77,8 @@ impl<'a> Panel<'a> {
         texture.checked_sub(n_of_library)
     }
 
-    /// Index in the list of the texture that plays alone.
+    /// Index in the list of the texture that plays alone; `None` while a comparison plays an authored texture instead.
     pub fn solo(&self) -> Option<usize> {
-        self.session.solo(self.project)
+        if self.compare.heard().is_some() { None } else { self.session.solo(self.project) }
     }
 }

@@ -8,6 +8,7 @@ mod authored_state;
 mod devices;
 mod follow;
 mod hand_state;
+mod height_maps_worker;
 mod interpolation;
 pub(crate) mod kept_path;
 mod loaded_textures;
@@ -22,19 +23,22 @@ mod played_signal;
 mod player;
 mod signal;
 mod sound;
+mod spaces;
 mod strokes;
+mod used_textures;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use anyhow::Context as _;
-use shagreen_core::space::authoring::{Authored, Authoring, Blending};
+use shagreen_core::space::authoring::{Authored, Blending};
 use shagreen_core::space::texture_path::Along;
 use shagreen_core::space::{LabelSource, Space, SpacePoint};
 use shagreen_core::texture::plane::Plane;
 use shagreen_core::units::{Contact, Hertz, Radians};
+use shagreen_formats::axis_sources::is_predicted_from_ratings;
 use shagreen_formats::library::{Library, TextureEntry};
-use shagreen_formats::project::{BlendChoice, Project, ProjectLibrary};
+use shagreen_formats::project::{BlendChoice, OwnTextures, Project, ProjectLibrary};
 use shagreen_studio::authoring::plane_at;
 use shagreen_studio::report::Warnings;
 use shagreen_studio::short_text::shortened;
@@ -106,7 +110,7 @@ impl Session {
         }
         let rates = library.textures.iter().zip(&places).map(|(t, place)| rate_in(t, place.as_ref(), rate).0);
         let mut session = Self {
-            authored: AuthoredState::new(Authoring::new(Space::new(&positions(&places))?)),
+            authored: AuthoredState::new(Space::new(&positions(&places))?),
             sound: Sound::new(library.textures.len(), rate_hz),
             hand: HandState::default(),
             textures: Textures {
@@ -115,6 +119,8 @@ impl Session {
                 base,
                 opened: Opened::new(&library),
                 joined: Vec::new(),
+                own_ids: BTreeSet::new(),
+                own: OwnTextures::default(),
                 renamed: BTreeMap::new(),
                 used: None,
                 axes: None,
@@ -140,23 +146,45 @@ impl Session {
         &self.textures.library.textures
     }
 
-    /// Number that changes whenever an interpolated texture at any point may have changed.
-    pub fn generation(&self) -> u64 {
-        self.authored.generation
-    }
-
     pub(crate) fn planes(&self) -> &[Arc<Plane>] {
         &self.textures.planes
     }
 
-    /// Authoring space of the textures.
+    /// Authoring space of the textures that the audible authored texture uses.
     pub fn space(&self) -> &Space {
-        self.authored.authoring.space()
+        self.authored.spaces.current().space()
+    }
+
+    /// Position of a texture, whether the audible authored texture uses it or not; `None` if it has none.
+    pub fn position(&self, texture: usize) -> Option<SpacePoint> {
+        self.textures.places.get(texture)?.map(|place| place.at)
+    }
+
+    /// Indices and positions of all textures that have one.
+    pub fn placed(&self) -> impl Iterator<Item = (usize, SpacePoint)> {
+        let places = self.textures.places.iter().enumerate();
+        places.filter_map(|(texture, place)| Some((texture, place.as_ref()?.at)))
+    }
+
+    /// Indices and positions of the textures that take part in an authored texture with these options.
+    pub fn placed_for(&self, blend: &BlendChoice) -> Vec<(usize, SpacePoint)> {
+        let left_out = self.left_out(blend);
+        self.placed().filter(|(texture, _)| !left_out.contains(texture)).collect()
+    }
+
+    /// Whether a texture takes part only in the authored textures that pin it.
+    pub fn is_own(&self, texture: usize) -> bool {
+        self.textures.own.contains(texture)
     }
 
     /// Source of a texture's position, or `None` if the texture has no position.
     pub fn place_source(&self, texture: usize) -> Option<LabelSource> {
         self.textures.places.get(texture)?.map(|place| place.source)
+    }
+
+    /// Standard deviation of a texture's position on both axes, 0 to 100; `None` unless it was estimated with one.
+    pub fn place_deviation(&self, texture: usize) -> Option<[f64; 2]> {
+        self.textures.places.get(texture)?.and_then(|place| place.deviation)
     }
 
     /// Whether any position comes from simulated raters.
@@ -174,10 +202,18 @@ impl Session {
     /// Source of the positions, as shown to the user.
     pub fn label_source(&self) -> &'static str {
         match self.common_source() {
+            Some(LabelSource::Estimated) if self.is_predicted_from_ratings() => {
+                strings::PREDICTED_FROM_RATINGS
+            }
             Some(source) => source.label(),
             None if self.textures.places.iter().all(Option::is_none) => strings::NO_SOURCE,
             None => strings::MIXED_SOURCES,
         }
+    }
+
+    /// Whether models trained on human ratings predicted positions of the space in use.
+    fn is_predicted_from_ratings(&self) -> bool {
+        self.textures.library.space_report.as_ref().is_some_and(is_predicted_from_ratings)
     }
 
     /// Words at the low and the high end of the x axis, then of the y axis.
@@ -250,12 +286,12 @@ impl Session {
 
     /// Whether a worker is computing the field and parametric models.
     pub fn is_preparing(&self) -> bool {
-        self.authored.models.awaited_secs().is_some()
+        self.authored.spaces.is_waiting()
     }
 
     /// Whether that computation takes so long that the window shows a notice.
     pub fn is_long_preparing(&self) -> bool {
-        self.authored.models.awaited_secs().is_some_and(|secs| secs > PATIENCE_SECS)
+        self.is_preparing() && self.authored.models.awaited_secs().is_some_and(|secs| secs > PATIENCE_SECS)
     }
 
     /// Number of textures loaded in the output, except those that are fading out.
@@ -271,6 +307,11 @@ impl Session {
     /// Direction of the lay on the pad, if the audible texture has one at the contact of the spectra.
     pub fn lay(&self) -> Option<Radians> {
         if self.authored.is_hidden { None } else { self.sound.heard.lay(self.sound.spectra.contact) }
+    }
+
+    /// Angle of the x axis of the audible texture on the pad, counterclockwise; zero if a blind comparison hides it.
+    pub fn turn(&self) -> Radians {
+        if self.authored.is_hidden { Radians(0.0) } else { self.sound.heard.turn() }
     }
 
     /// Recently played samples.
@@ -331,11 +372,6 @@ impl Session {
     /// Position of the stroke on the path that is played.
     pub fn path_point(&self) -> Option<SpacePoint> {
         self.authored.path_point
-    }
-
-    /// Interpolation in the space.
-    pub fn authoring(&self) -> &Authoring {
-        &self.authored.authoring
     }
 
     /// Removes the message from the status bar.

@@ -1,8 +1,10 @@
 //! Modal sheets (dialogs) over the window, and the target of dropped files.
 
+pub(crate) mod about_sheet;
 pub(crate) mod conflict_ui;
 pub mod devices;
 pub(crate) mod export;
+pub(crate) mod folders_ui;
 pub(crate) mod gallery_sheet;
 pub(crate) mod guide_sheet;
 pub mod import;
@@ -11,6 +13,8 @@ pub(crate) mod outside_library;
 pub(crate) mod palette;
 pub(crate) mod path_field;
 pub(crate) mod recovered_ui;
+pub(crate) mod relief_choice;
+pub(crate) mod relief_sheet;
 pub mod save;
 pub(crate) mod shortcuts_ui;
 pub(crate) mod unsaved_changes;
@@ -24,10 +28,12 @@ use shagreen_studio::open::is_other_kind;
 
 use crate::author::texture_sheet::TextureSheet;
 use crate::command::prompt::PromptCommand;
+use crate::command::relief::{ReliefCommand, ReliefOf};
 use crate::command::stroke::StrokeCommand;
 use crate::command::{Command, FileCommand};
 use crate::look::theme::{RADIUS, tokens};
 use crate::panel::Panel;
+use crate::sheets::about_sheet::AboutSheet;
 use crate::sheets::conflict_ui::conflict_ui;
 use crate::sheets::devices::DevicesSheet;
 use crate::sheets::export::ExportSheet;
@@ -39,6 +45,8 @@ use crate::sheets::open_sheet::OpenSheet;
 use crate::sheets::outside_library::OutsideLibrarySheet;
 use crate::sheets::palette::PaletteSheet;
 use crate::sheets::recovered_ui::recovered_ui;
+use crate::sheets::relief_choice::ReliefChoice;
+use crate::sheets::relief_sheet::ReliefSheet;
 use crate::sheets::save::SaveSheet;
 use crate::sheets::shortcuts_ui::shortcuts_ui;
 use crate::sheets::unsaved_changes::leaving_ui;
@@ -70,9 +78,15 @@ pub(crate) enum Sheet {
     Gallery(GallerySheet),
     /// Details of a texture.
     Texture(Box<TextureSheet>),
+    /// Asks what a picture is for.
+    ReliefChoice(ReliefChoice),
+    /// Makes the relief of a texture from a picture.
+    Relief(Box<ReliefSheet>),
     /// Keyboard shortcuts.
     Shortcuts,
     Guide(Box<GuideSheet>),
+    /// Version, licenses, and paths of files.
+    About(AboutSheet),
     /// Searches for a command.
     Palette(PaletteSheet),
     /// Asks before unsaved work would be lost.
@@ -84,6 +98,9 @@ pub(crate) enum Sheet {
     /// Offers projects that a crashed program left behind.
     Recovered(Vec<Leftover>),
 }
+
+/// Endings of the names of pictures.
+pub(crate) const PICTURE_ENDINGS: [&str; 3] = ["jpg", "jpeg", "png"];
 
 /// Target of files dropped on a workspace with file types of its own.
 #[derive(Clone, Copy)]
@@ -122,8 +139,8 @@ impl Sheet {
 
     /// Draws the sheet over the window, and the target of files that hover over it. Returns the requested commands.
     /// Dropped files are judgments in the Build workspace and signals in the Signals workspace. Elsewhere a stroke
-    /// recording is repeated, and a project is opened. A photo becomes a prompt or the picture of a texture. Other
-    /// files are imported.
+    /// recording is repeated, and a project is opened. A photo becomes the picture of a texture or, after a question, a
+    /// prompt or a relief; several photos are prompts. Other files are imported. An open import sheet reads all files.
     pub(crate) fn show(
         &mut self,
         ctx: &Context,
@@ -146,8 +163,11 @@ impl Sheet {
             Self::Open(sheet) => sheet.show(ctx, document.is_opening()),
             Self::Gallery(sheet) => sheet.show(ctx),
             Self::Texture(sheet) => sheet.show(ctx, panel),
+            Self::ReliefChoice(choice) => choice.show(ctx),
+            Self::Relief(sheet) => sheet.show(ctx),
             Self::Shortcuts => shortcuts_ui(ctx).into_iter().collect(),
             Self::Guide(sheet) => sheet.show(ctx),
+            Self::About(sheet) => sheet.show(ctx).into_iter().collect(),
             Self::Palette(sheet) => sheet.show(ctx),
             Self::Leaving(leave) => leaving_ui(ctx, *leave, &document.name(), document.is_changed()),
             Self::Conflict(conflict) => conflict_ui(ctx, conflict, &document.name()),
@@ -164,7 +184,7 @@ impl Sheet {
             return commands;
         }
         let is_import = matches!(self, Self::Import(_));
-        let target = target.filter(|_| !is_import);
+        let target = target.filter(|_| !is_import && !matches!(self, Self::Relief(_)));
         let dropped = ctx.input(|i| i.raw.dropped_files.clone());
         let is_project = |file: &DroppedFileHandle| {
             let path = file.path();
@@ -186,17 +206,27 @@ impl Sheet {
             commands.push(Command::File(FileCommand::Open(project)));
         } else if dropped.is_empty() {
             // Nothing was dropped, or strokes only.
+        } else if let Self::Import(sheet) = &mut *self {
+            sheet.load(sources(dropped));
+        } else if let (Self::Relief(sheet), Some(photo)) = (&mut *self, photos.first()) {
+            sheet.read(Source::Dropped(photo.clone()), ctx);
         } else if let Some(target) = target {
             commands.push((target.command)(sources(dropped)));
         } else if let Some(photo) = photos.first().filter(|_| is_picture) {
             commands.push(Command::ReadPhoto(Source::Dropped(photo.clone())));
+        } else if let ([photo], [], Self::Closed | Self::Texture(_) | Self::ReliefChoice(_)) =
+            (&photos[..], &others[..], &*self)
+        {
+            let of = if let Self::Texture(sheet) = &*self { Some(sheet.id()) } else { None };
+            let of = of.map(|id| ReliefOf::Listed(id.to_owned()));
+            let ask = ReliefCommand::AskWhatFor(of, Source::Dropped(photo.clone()));
+            commands.push(Command::Relief(ask));
         } else {
             if !photos.is_empty() {
                 commands.push(Command::Prompt(PromptCommand::Look(sources(photos))));
             }
             if !others.is_empty() {
-                let import = if is_import { Command::Import } else { Command::ImportHere };
-                commands.push(import(sources(others)));
+                commands.push(Command::ImportHere(sources(others)));
             }
         }
         if ctx.input(|i| !i.raw.hovered_files.is_empty()) {
@@ -215,19 +245,19 @@ pub(crate) fn command_for(path: &Path) -> Option<Command> {
     if !is_other_kind(path) {
         return None;
     }
-    let source = vec![Source::Path(path.to_owned())];
+    let source = Source::Path(path.to_owned());
     Some(if is_photo(path) {
-        Command::Prompt(PromptCommand::Look(source))
+        Command::Relief(ReliefCommand::AskWhatFor(None, source))
     } else if is_stroke_path(path, || false) {
-        Command::Stroke(StrokeCommand::Read(source))
+        Command::Stroke(StrokeCommand::Read(vec![source]))
     } else {
-        Command::ImportHere(source)
+        Command::ImportHere(vec![source])
     })
 }
 
 /// Whether a file is a photo, from the ending of its name.
 pub(crate) fn is_photo(path: &Path) -> bool {
-    ["jpg", "jpeg", "png"].contains(&ending_of(path).as_str())
+    PICTURE_ENDINGS.contains(&ending_of(path).as_str())
 }
 
 /// Draws over the whole window which files may be dropped.

@@ -4,6 +4,7 @@
 
 use shagreen_core::space::SpacePoint;
 
+pub mod about;
 pub mod authored;
 pub mod browse;
 pub mod build;
@@ -23,6 +24,7 @@ pub mod map;
 pub mod motion;
 pub mod path;
 pub mod prompt;
+pub mod relief;
 pub mod rig;
 pub mod scope;
 pub mod shape;
@@ -75,6 +77,8 @@ pub const BLEND: &str = "Mode";
 pub const PAD: &str = "Stroke pad";
 pub const PAD_HELP: &str =
     "Stroke here with the mouse or a pen to feel the texture. The mouse wheel sets the normal force, in N.";
+pub const LAY: &str = "Direction of the lay";
+pub const LAY_HELP: &str = "The texture feels different along these lines and across them. The control \"Direction\" of the shape rotates them.";
 pub const HAND_START: &str = "Stroke";
 pub const HAND_STOP: &str = "Stop";
 pub const HAND_HELP: &str = "Starts or stops the automatic stroke: it moves along the selected path at the set speed and normal force (Space).";
@@ -152,11 +156,13 @@ pub const LOAD_HELP: &str =
     "Share of the available processing time that audio rendering uses, in percent. At 100 %, dropouts begin.";
 pub const DROPOUTS_HELP: &str = "Number of times the output ran out of samples (underruns).";
 pub const LEVEL_HELP: &str = "Level of the texture before mute and limiter: root mean square acceleration over about 50 ms, in dB re 1 m/s².";
+pub const OUTPUT_LOST: &str = "Output lost";
 pub const OPEN_AGAIN: &str = "Open again";
 pub const OPEN_AGAIN_HELP: &str = "The output is gone. Connect it again, then open it";
 pub const STALLED: &str = "The output has stopped requesting samples; choose it again";
 pub const LIMITING: &str = "limiting";
-pub const SOURCE_HELP: &str = "Source of the texture positions. Positions from physical labels or simulated raters are not human ratings.";
+pub const SOURCE_HELP: &str = "Source of the texture positions. Positions from physical labels or simulated raters are not human ratings. Estimates are predicted from words, pictures or vibration.";
+pub const PREDICTED_FROM_RATINGS: &str = "estimates from human ratings";
 pub const MIXED_SOURCES: &str = "mixed, not comparable";
 pub const NOBODY_FELT: &str = ", no human data";
 pub const SOME_SIMULATED: &str = "; some are simulated";
@@ -208,14 +214,15 @@ pub fn places_from(source: &str) -> String {
     format!("Positions: {source}")
 }
 
-/// Position of one texture and the source of that position.
-pub fn lies_at(point: SpacePoint, source: &str) -> String {
-    format!("{point} ({source})")
+/// Position of one texture, its standard deviation on both axes if that is known, and the source of the position.
+pub fn lies_at(point: SpacePoint, deviation: Option<[f64; 2]>, source: &str) -> String {
+    let uncertain = deviation.map_or_else(String::new, |[across, up]| format!(" ± {across:.0}, {up:.0}"));
+    format!("{point}{uncertain} ({source})")
 }
 
-/// Accessible name of a texture on the canvas; a click moves the point there.
-pub fn go_to(texture: &str) -> String {
-    format!("Go to {texture}")
+/// Accessible name of a texture on the canvas; a click plays it alone.
+pub fn play_texture(texture: &str) -> String {
+    format!("Play {texture}")
 }
 
 /// Accessible name of a texture in the list.
@@ -233,8 +240,13 @@ pub fn of_the_blend(percent: f64) -> String {
     format!("weight {percent:.0} %")
 }
 
+/// Notice that a click has moved an authored texture; `keys` are those of undo.
+pub fn moved_by_click(name: &str, keys: &str) -> String {
+    format!("{name} moved. Undo: {keys}")
+}
+
 pub fn plays_alone(texture: &str) -> String {
-    format!("Only {texture} plays. Move the authored point to return to the interpolated texture.")
+    format!("Only {texture} plays")
 }
 
 /// Label of the control that pins or unpins a texture, and the name of that edit.
@@ -266,4 +278,17 @@ pub fn extrapolated_to(at: SpacePoint) -> String {
 /// Accessible name of the solo button of a texture.
 pub fn solo(name: &str) -> String {
     format!("Solo {name}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::lies_at;
+    use shagreen_core::space::SpacePoint;
+
+    #[test]
+    fn an_estimated_position_has_its_standard_deviation() {
+        let at = SpacePoint { rough_smooth: 65.7, hard_soft: 58.8 };
+        assert_eq!(lies_at(at, Some([9.6, 51.6]), "estimates"), "65.7, 58.8 ± 10, 52 (estimates)");
+        assert_eq!(lies_at(at, None, "human ratings"), "65.7, 58.8 (human ratings)");
+    }
 }

@@ -3,6 +3,7 @@
 mod author_page;
 mod clipboard;
 mod commands;
+mod escape;
 mod exports;
 pub(crate) mod file_menu;
 mod files;
@@ -13,6 +14,7 @@ mod outside_library;
 mod pages;
 mod preview;
 mod prompts;
+mod reliefs;
 mod rig;
 mod signals;
 mod stage;
@@ -245,6 +247,7 @@ impl Window {
         self.collect_simulated(&ctx);
         self.collect_strokes();
         self.remember_output();
+        let escaped = self.escaped(&ctx);
         let mut commands = if self.sheet.is_open() {
             Vec::new()
         } else {
@@ -257,26 +260,30 @@ impl Window {
             commands.retain(|command| !matches!(command, Command::ToggleHand));
         }
         if !is_author {
-            commands.retain(|command| !matches!(command, Command::TogglePathTool | Command::Clipboard(_)));
+            commands.retain(|command| {
+                let is_of_author = matches!(
+                    command,
+                    Command::TogglePathTool
+                        | Command::Clipboard(_)
+                        | Command::RenameSelected
+                        | Command::DeleteSelected
+                );
+                !is_of_author
+            });
         }
         if let Some(page) = self.pages.current() {
             commands = commands.into_iter().filter_map(|command| page.accept(command)).collect();
         }
-        if self.pages.workspace == Workspace::Author
-            && self.pages.author.canvas.tool.is_on
-            && !self.sheet.is_open()
-            && ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::Escape))
-        {
-            commands.push(Command::TogglePathTool);
-        }
+        commands.extend(escaped);
 
         let bar = |margin: i8| Frame::new().fill(t.panel).inner_margin(Margin::symmetric(10, margin));
         Side::top("title").exact_size(38.0).frame(bar(4)).show(ui, |ui| commands.extend(self.title_ui(ui)));
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
+        let says_source = is_author && !self.pages.author.canvas.is_narrow;
         Side::bottom("status")
             .exact_size(32.0)
             .frame(bar(2))
-            .show(ui, |ui| commands.extend(status_ui(ui, &panel, is_author)));
+            .show(ui, |ui| commands.extend(status_ui(ui, &panel, says_source)));
         if is_author {
             self.author_ui(ui, &ctx, &mut commands);
         } else {
@@ -299,12 +306,14 @@ impl Window {
         if self.pages.workspace == Workspace::Author && !self.sheet.is_open() && self.tour.show(&ctx) {
             self.files.settings.has_seen_tour = true;
         }
+        self.revert_escaped_drag(&mut commands, &ctx);
         self.follow_preview(&mut commands, &ctx);
         focus_ring_ui(&ctx);
         for command in commands {
             self.carry_out(command, &ctx);
         }
         self.follow_project(&ctx);
+        self.open_awaited_export(&ctx);
         let (project, textures) = (&self.project, self.session.textures());
         self.pictures.follow(&project.library, &project.joined, textures);
         self.remember_hints(&ctx);

@@ -8,6 +8,7 @@ mod fault;
 mod finding;
 pub mod fit;
 mod from_raw;
+mod hum;
 mod missing;
 mod motion;
 mod plausible;

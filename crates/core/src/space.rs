@@ -15,6 +15,7 @@ mod field;
 pub mod heat_map;
 mod inverse_distance;
 pub mod leave_one_out;
+mod mean_axes;
 mod sampled;
 pub mod selection;
 pub mod space_build;

@@ -18,6 +18,7 @@ mod refit;
 pub mod relief;
 pub mod render;
 pub mod shape;
+pub mod steady_stick_slip;
 pub mod stick_slip;
 pub mod tap;
 

@@ -43,6 +43,7 @@ pub mod engine;
 pub mod error;
 pub mod hand;
 pub mod hid;
+pub mod impact;
 pub mod kinematics;
 mod link;
 pub mod live;

@@ -1,9 +1,12 @@
 //! A recorded stroke, prepared for replay.
 
+mod coarse;
+
 use shagreen_synth::contact::Contact;
 
 use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
 use crate::touch::{Touch, mix_contacts};
+use crate::track::coarse::{COARSE_INTERVAL_SECS, Fix, coarse_speeds};
 
 /// Rate of a track's points, in Hz.
 pub const TRACK_RATE_HZ: f64 = 1000.0;
@@ -83,25 +86,31 @@ pub struct TrackWarnings {
 
 /// A stroke on a uniform time grid of [`TRACK_RATE_HZ`].
 ///
-/// Each contact segment gets its speed from the Kalman filter, with the actual times of the reports. Between two
-/// reports, position, speed and force are interpolated linearly. Before a lift, force is held, and speed is held and
-/// decays, as for a live pen. Where reports end without a lift, speed is held and decays, and the tip is lifted after
-/// [`LIFT_GAP_SECS`], or later in recordings with long report intervals.
+/// Each contact segment gets its speed from the Kalman filter, with the actual times of the reports. If the reports are
+/// usually more than 25 ms apart, it gets its speed from the distances between them instead. Between two reports, position,
+/// speed and force are interpolated linearly. Before a lift, force is held, and speed is held and decays, as for a live pen.
+/// Where reports end without a lift, speed is held and decays, and the tip is lifted after [`LIFT_GAP_SECS`], or later in
+/// recordings with long report intervals.
+///
+/// Each contact begins with a landing, except that of a first sample which is already in contact and states no impact
+/// speed above zero: nobody knows when that tip landed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     touches: Box<[Touch]>,
-    onsets: Box<[Onset]>,
+    landings: Box<[TrackLanding]>,
     duration_secs: f64,
     /// Imperfections of the samples.
     pub warnings: TrackWarnings,
 }
 
-/// Contact onset of a track.
+/// Landing of the tip in a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Onset {
+pub struct TrackLanding {
     /// Time since the start of the track, in seconds.
-    time_secs: f64,
-    impact_mps: Option<f32>,
+    pub time_secs: f64,
+    /// Impact speed in m/s, if the samples state it: the higher value of the last sample in the air and the first in
+    /// contact.
+    pub impact_mps: Option<f32>,
 }
 
 impl Track {
@@ -111,8 +120,12 @@ impl Track {
     /// [`TrackError`] names the first invalid sample.
     pub fn new(samples: &[PenSample]) -> Result<Self, TrackError> {
         check(samples)?;
-        let gap_secs = lift_gap_secs(samples);
-        let (reports, warnings) = reports_of(samples, gap_secs);
+        let usual_secs = usual_interval_secs(samples);
+        let gap_secs = LIFT_GAP_SECS.max(LIFT_GAP_INTERVALS * usual_secs);
+        let (mut reports, warnings) = reports_of(samples, gap_secs);
+        if usual_secs > COARSE_INTERVAL_SECS {
+            set_coarse_speeds(&mut reports, samples, gap_secs);
+        }
         let (Some(first), Some(last)) = (reports.first(), reports.last()) else {
             return Err(TrackError::Empty);
         };
@@ -133,7 +146,7 @@ impl Track {
             touch_between(&reports[next.saturating_sub(1)], reports.get(next), time_secs, gap_secs)
         });
         let touches = touches.collect();
-        Ok(Self { touches, onsets: onsets_of(&reports, start_secs, gap_secs), duration_secs, warnings })
+        Ok(Self { touches, landings: landings_of(&reports, start_secs, gap_secs), duration_secs, warnings })
     }
 
     /// Duration from the first to the last sample, in seconds.
@@ -141,13 +154,24 @@ impl Track {
         self.duration_secs
     }
 
-    /// Returns the impact speed in m/s of the contact in progress `time_secs` after the start, if the samples state it: the
-    /// highest value of the last sample in the air and the first in contact. Cost: one binary search.
-    pub fn impact_mps_at(&self, time_secs: f64) -> Option<f32> {
+    /// All landings, in order of time.
+    pub fn landings(&self) -> &[TrackLanding] {
+        &self.landings
+    }
+
+    /// Returns the landing that began the contact in progress `time_secs` after the start; `None` if that contact has no
+    /// landing. Cost: one binary search.
+    pub fn landing_at(&self, time_secs: f64) -> Option<TrackLanding> {
         // Between two points of the grid, a contact begins up to one step before its first report.
         let latest_secs = time_secs + 1.0 / TRACK_RATE_HZ;
-        let n_begun = self.onsets.partition_point(|onset| onset.time_secs <= latest_secs);
-        self.onsets.get(n_begun.checked_sub(1)?)?.impact_mps
+        let n_begun = self.landings.partition_point(|landing| landing.time_secs <= latest_secs);
+        self.landings.get(n_begun.checked_sub(1)?).copied()
+    }
+
+    /// Returns the impact speed in m/s of the contact in progress `time_secs` after the start, if the samples state it.
+    /// Cost: one binary search.
+    pub fn impact_mps_at(&self, time_secs: f64) -> Option<f32> {
+        self.landing_at(time_secs)?.impact_mps
     }
 
     /// Returns the touch `time_secs` after the start, interpolated linearly between grid points; lifted outside the
@@ -198,17 +222,35 @@ struct Report {
     impact_mps: Option<f32>,
 }
 
-/// Returns the gap after which the tip of a recorded stroke is lifted, in seconds: [`LIFT_GAP_SECS`], or
-/// [`LIFT_GAP_INTERVALS`] median intervals of a slower recording.
-fn lift_gap_secs(samples: &[PenSample]) -> f64 {
+/// Returns the median interval in seconds from a sample in contact to the next one; zero without one. It decides the gap
+/// after which the tip of a recorded stroke is lifted: [`LIFT_GAP_SECS`], or [`LIFT_GAP_INTERVALS`] of it.
+fn usual_interval_secs(samples: &[PenSample]) -> f64 {
     let mut intervals: Vec<f64> = samples
         .windows(2)
         .filter(|pair| pair[0].touching && pair[1].time_secs > pair[0].time_secs)
         .map(|pair| pair[1].time_secs - pair[0].time_secs)
         .collect();
     intervals.sort_by(f64::total_cmp);
-    let usual_secs = intervals.get(intervals.len() / 2).copied().unwrap_or(0.0);
-    LIFT_GAP_SECS.max(LIFT_GAP_INTERVALS * usual_secs)
+    intervals.get(intervals.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// Replaces the speeds of reports that are far apart by those of the distances between them.
+fn set_coarse_speeds(reports: &mut [Report], samples: &[PenSample], gap_secs: f64) {
+    // Of several samples at one time, the last is a report.
+    let is_report = |index: &usize| {
+        let next = samples.get(index + 1);
+        next.is_none_or(|next| next.time_secs != samples[*index].time_secs)
+    };
+    let fix = |index: usize| {
+        let PenSample { time_secs, x_m, y_m, touching, .. } = samples[index];
+        Fix { time_secs, x_m, y_m, touching }
+    };
+    let fixes: Vec<Fix> = (0..samples.len()).filter(is_report).map(fix).collect();
+    for (report, speed_mps) in reports.iter_mut().zip(coarse_speeds(&fixes, gap_secs)) {
+        if report.touching {
+            report.touch.contact.speed_mps = speed_mps as f32;
+        }
+    }
 }
 
 /// Returns one report per time, with speeds.
@@ -244,21 +286,25 @@ fn reports_of(samples: &[PenSample], gap_secs: f64) -> (Vec<Report>, TrackWarnin
     (reports, warnings)
 }
 
-/// Returns the contact onsets with their impact speeds, at times since the start.
-fn onsets_of(reports: &[Report], start_secs: f64, gap_secs: f64) -> Box<[Onset]> {
-    let mut onsets = Vec::new();
+/// Returns the landings, at times since the start.
+fn landings_of(reports: &[Report], start_secs: f64, gap_secs: f64) -> Box<[TrackLanding]> {
+    let mut landings = Vec::new();
     let mut last: Option<&Report> = None;
     for report in reports {
+        let is_first = last.is_none();
         let before = last.filter(|before| report.time_secs - before.time_secs <= gap_secs);
         last = Some(report);
         if !report.touching || before.is_some_and(|before| before.touching) {
             continue;
         }
+        if is_first && report.impact_mps.is_none_or(|mps| mps <= 0.0) {
+            continue; // The stroke starts in contact.
+        }
         let in_air = before.and_then(|before| before.impact_mps);
         let impact_mps = [in_air, report.impact_mps].into_iter().flatten().reduce(f32::max);
-        onsets.push(Onset { time_secs: report.time_secs - start_secs, impact_mps });
+        landings.push(TrackLanding { time_secs: report.time_secs - start_secs, impact_mps });
     }
-    onsets.into_boxed_slice()
+    landings.into_boxed_slice()
 }
 
 /// Returns the touch at a time between two reports. Reports further apart than the gap belong to two strokes.

@@ -15,7 +15,7 @@ pub const FORMAT: &str = "shagreen-evaluation-report";
 pub const MEASURED: &str = "measured on signals";
 
 /// Version of the report.
-const VERSION: &str = "1.0";
+const VERSION: &str = "1.1";
 
 /// Identifier of a method in files and figures.
 pub fn method_id(method: &Method) -> &'static str {
@@ -31,6 +31,23 @@ pub fn evaluation_source(library: &Library) -> String {
     format!("{MEASURED}, positions from {}", sources.join(" and "))
 }
 
+/// Limit of the result: whether positions of the library follow from the vibration of the textures, so that the position
+/// of a left-out texture contains part of its answer. `None` if all positions come from ratings and sorts.
+pub fn position_caveat(library: &Library) -> Option<&'static str> {
+    let sources = library.label_sources();
+    if sources.contains(&LabelSource::PhysicalLabels) {
+        Some(
+            "Physical labels are computed from the textures themselves (in the starter library, roughness from the vibration level), so the position of a left-out texture contains part of its answer. The shape error excludes the overall level.",
+        )
+    } else if sources.contains(&LabelSource::Estimated) {
+        Some(
+            "Estimated positions can be predicted from the vibration of the textures themselves, so the position of a left-out texture can contain part of its answer. The shape error excludes the overall level.",
+        )
+    } else {
+        None
+    }
+}
+
 /// Returns the complete report as one JSON object. `library` must be the evaluated library.
 pub fn evaluation_report(library: &Library, measured: &LeaveOneOut) -> Value {
     let summaries = measured.methods.iter().map(|s| (method_id(&s.method).to_owned(), summary(s)));
@@ -41,6 +58,7 @@ pub fn evaluation_report(library: &Library, measured: &LeaveOneOut) -> Value {
         "format": FORMAT,
         "version": VERSION,
         "measured": MEASURED,
+        "position_caveat": position_caveat(library),
         "label_sources": library.label_sources().into_iter().map(LabelSource::id).collect::<Vec<_>>(),
         "n": measured.textures.len(),
         "modes": modes,
@@ -68,6 +86,7 @@ fn summary(summary: &Summary) -> Value {
         "error_db_mean": summary.error_db_mean,
         "error_db_median": summary.error_db_median,
         "level_error_db_mean": summary.level_error_db_mean,
+        "shape_error_db_mean": summary.shape_error_db_mean,
         "rank1": summary.rank1,
         "top5": summary.top5,
         "nrs_mean": summary.nrs_mean,
@@ -99,6 +118,7 @@ fn texture(library: &Library, measured: &LeaveOneOut, left: &LeftOut) -> Value {
         "within_measured": left.is_within_measured,
         "error_db": by_method(&|outcome| json!(outcome.error_db)),
         "level_error_db": by_method(&|outcome| json!(outcome.level_error_db)),
+        "shape_error_db": by_method(&|outcome| json!(outcome.shape_error_db)),
         "rank": by_method(&|outcome| json!(outcome.rank)),
         "nrs": by_method(&|outcome| json!(outcome.nrs)),
         "signal_error_db": by_method(&|outcome| json!(outcome.signal_error_db)),
@@ -131,6 +151,7 @@ fn methods(measured: &LeaveOneOut) -> Figure {
         "error, mean, dB",
         "error, median, dB",
         "level error, dB",
+        "shape error, dB",
         "original nearest, share",
         "original in five nearest, share",
         "NRS",
@@ -140,6 +161,7 @@ fn methods(measured: &LeaveOneOut) -> Figure {
             summary.error_db_mean,
             summary.error_db_median,
             summary.level_error_db_mean,
+            summary.shape_error_db_mean,
             summary.rank1,
             summary.top5,
         ];
@@ -214,13 +236,15 @@ fn map(library: &Library, measured: &LeaveOneOut, method: usize) -> Figure {
 
 #[cfg(test)]
 mod tests {
-    use shagreen_core::space::SpacePoint;
     use shagreen_core::space::leave_one_out::{LeaveOneOut, LeftOut, Method, Outcome, Summary};
+    use shagreen_core::space::{LabelSource, SpacePoint};
     use shagreen_core::texture::blend::Mode;
 
-    use super::{MEASURED, best, evaluation_figures, evaluation_report, figure_name, method_id};
+    use super::{
+        MEASURED, best, evaluation_figures, evaluation_report, figure_name, method_id, position_caveat,
+    };
     use crate::figure::{figure_csv, figure_svg};
-    use crate::starter::starter_library;
+    use crate::starter::{simulated_library, starter_library};
 
     fn measured() -> LeaveOneOut {
         let summary = |method: Method, error_db: f64| Summary {
@@ -229,6 +253,7 @@ mod tests {
             error_db_mean: error_db,
             error_db_median: error_db,
             level_error_db_mean: 1.0,
+            shape_error_db_mean: 0.75 * error_db,
             rank1: 0.5,
             top5: 1.0,
             nrs_mean: None,
@@ -237,6 +262,7 @@ mod tests {
         let outcome = |error_db: f64| Outcome {
             error_db,
             level_error_db: 1.0,
+            shape_error_db: 0.75 * error_db,
             rank: 2,
             nrs: None,
             signal_error_db: Some(2.5),
@@ -264,7 +290,10 @@ mod tests {
             (&report["measured"], &report["label_sources"][0]),
             (&MEASURED.into(), &"physical".into())
         );
+        assert_eq!(report["version"], "1.1", "position caveat and shape error");
         assert_eq!(report["modes"]["field"]["error_db_mean"], 2.0);
+        assert_eq!(report["modes"]["field"]["shape_error_db_mean"], 1.5);
+        assert!(report["position_caveat"].as_str().unwrap().contains("roughness from the vibration level"));
         assert_eq!((&report["nearest"]["rank1"], &report["best"]), (&0.5.into(), &"field".into()));
         assert!(report["modes"].get("nearest").is_none() && report["nearest"]["nrs_mean"].is_null());
         assert_eq!(report["textures"][1]["id"], library.textures[4].id.as_str());
@@ -274,6 +303,14 @@ mod tests {
         assert_eq!(report["compared_at"]["channels_hz"].as_array().unwrap().len(), 40);
         assert_eq!(report["on_hull"].as_array().unwrap().len(), 3);
         assert_eq!(best(&measured()).map(|s| method_id(&s.method)), Some("field"));
+    }
+
+    #[test]
+    fn positions_that_follow_from_the_vibration_are_named() {
+        assert_eq!(position_caveat(&simulated_library().unwrap()), None);
+        let mut library = simulated_library().unwrap();
+        library.textures[0].place.as_mut().unwrap().source = LabelSource::Estimated;
+        assert!(position_caveat(&library).unwrap().starts_with("Estimated positions"));
     }
 
     #[test]

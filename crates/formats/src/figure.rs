@@ -4,6 +4,7 @@ mod color_map;
 mod labels;
 mod png;
 mod svg;
+mod title;
 
 use crate::named_table::write_table;
 
@@ -356,6 +357,26 @@ mod tests {
         assert!(svg.contains("-0.757") && svg.contains("rough-smooth"), "{svg}");
         let page = page_svg("A page", "what it is", &[Figure::Chart(chart()), Figure::Table(table())]);
         assert!(page.contains("A page") && page.contains("-0.757") && page.contains("A &lt;figure&gt;"));
+    }
+
+    /// Every line of text of a page stands in its own figure: no title reaches the next one.
+    #[test]
+    fn long_titles_stand_on_several_lines() {
+        let long = "rough–smooth: nested cross-validation r 0.68, p = 0.007; r 0.86 with features selected on all textures";
+        let figures = [
+            Figure::Chart(Chart { title: long.to_owned(), ..chart() }),
+            Figure::Table(Table { title: long.to_owned(), ..table() }),
+        ];
+        let page = page_svg("A page", "what it is", &figures);
+        let texts: Vec<&str> = page
+            .split("</text>")
+            .filter_map(|part| part.rsplit_once('>').map(|(_, text)| text.trim()))
+            .collect();
+        assert!(!texts.iter().any(|text| text.contains(long)), "{texts:?}");
+        for part in ["rough–smooth: nested cross-validation", "features selected on all textures"] {
+            assert_eq!(texts.iter().filter(|text| text.contains(part)).count(), 2, "{part}: {texts:?}");
+        }
+        assert!(texts.iter().all(|text| text.chars().count() <= 65), "{texts:?}");
     }
 
     #[test]

@@ -15,10 +15,12 @@ pub enum Found {
 }
 
 /// First bytes of widespread formats.
-const BEGINNINGS: [(&[u8], &str); 12] = [
+const BEGINNINGS: [(&[u8], &str); 14] = [
     (b"\x89PNG", "a PNG picture"),
     (b"\xff\xd8\xff", "a JPEG picture"),
     (b"GIF8", "a GIF picture"),
+    (b"II*\0", "a TIFF picture"),
+    (b"MM\0*", "a TIFF picture"),
     (b"fLaC", "a FLAC recording"),
     (b"OggS", "an Ogg recording"),
     (b"ID3", "an MP3 recording"),
@@ -39,10 +41,31 @@ impl Found {
         if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WAVE") {
             return Self::Kind("a WAV file");
         }
+        if let Some(picture) = picture_of(bytes) {
+            return Self::Kind(picture);
+        }
         let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
         let begins = |beginning: &[u8]| bytes.starts_with(beginning) || text.starts_with(beginning);
         let known = BEGINNINGS.iter().find(|(beginning, _)| begins(beginning));
         known.map_or(Self::Unknown, |&(_, kind)| Self::Kind(kind))
+    }
+
+    /// Returns whether the file is a picture.
+    pub fn is_picture(&self) -> bool {
+        matches!(self, Self::Kind(kind) if kind.ends_with(" picture"))
+    }
+
+    /// Returns the sentence of an error: the file is not a photo.
+    pub fn instead_of_photo(&self) -> String {
+        match self {
+            Self::Kind(kind) => {
+                format!("this is {kind}, but only JPEG and PNG are read; save it as JPEG or PNG")
+            }
+            Self::Empty => "the file is empty; restore it from a copy, as JPEG or PNG".to_owned(),
+            Self::Json(_) | Self::Unknown => {
+                "this is not a picture that can be read; save it as JPEG or PNG".to_owned()
+            }
+        }
     }
 
     /// Returns the sentence of an error: the file is not `wanted`, whose field `format` would be `format`.
@@ -58,9 +81,68 @@ impl Found {
     }
 }
 
+/// Returns the kind of a picture whose format more than its first bytes identify.
+fn picture_of(bytes: &[u8]) -> Option<&'static str> {
+    let at = |range: std::ops::Range<usize>| bytes.get(range).unwrap_or_default();
+    if at(0..4) == b"RIFF" && at(8..12) == b"WEBP" {
+        return Some("a WebP picture");
+    }
+    // The brand of an ISO media file.
+    if at(4..8) == b"ftyp" {
+        return match at(8..12) {
+            b"heic" | b"heix" | b"hevc" | b"hevx" | b"heim" | b"heis" => Some("a HEIC picture"),
+            // The brand of the container, which does not name the codec.
+            b"mif1" | b"msf1" => Some("a HEIF picture"),
+            b"avif" | b"avis" => Some("an AVIF picture"),
+            _ => None,
+        };
+    }
+    // After the letters come the size of the file and four zeros.
+    if at(0..2) == b"BM" && at(6..10) == [0; 4] {
+        return Some("a BMP picture");
+    }
+    match at(0..3) {
+        [b'P', b'1' | b'4', after] if after.is_ascii_whitespace() => Some("a PBM picture"),
+        [b'P', b'2' | b'5', after] if after.is_ascii_whitespace() => Some("a PGM picture"),
+        [b'P', b'3' | b'6', after] if after.is_ascii_whitespace() => Some("a PPM picture"),
+        _ => None,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Found;
+
+    #[test]
+    fn a_picture_of_another_format_is_named() {
+        for (bytes, name) in [
+            (&b"P6\n2 2\n255\n"[..], "a PPM picture"),
+            (b"P3 2 2 255", "a PPM picture"),
+            (b"P5\n# made", "a PGM picture"),
+            (b"P4\n8 8\n", "a PBM picture"),
+            (b"GIF89a", "a GIF picture"),
+            (b"RIFF\0\0\0\0WEBPVP8 ", "a WebP picture"),
+            (b"II*\0\x08\0\0\0", "a TIFF picture"),
+            (b"MM\0*\0\0\0\x08", "a TIFF picture"),
+            (b"BM\x36\0\0\0\0\0\0\0\x36", "a BMP picture"),
+            (b"\0\0\0\x18ftypheic\0\0\0\0", "a HEIC picture"),
+            (b"\0\0\0\x18ftypmif1\0\0\0\0", "a HEIF picture"),
+            (b"\0\0\0\x18ftypavif\0\0\0\0", "an AVIF picture"),
+        ] {
+            let text = Found::of(bytes).instead_of_photo();
+            assert!(Found::of(bytes).is_picture());
+            assert_eq!(
+                text,
+                format!("this is {name}, but only JPEG and PNG are read; save it as JPEG or PNG")
+            );
+        }
+        // Texts that begin with the same letters, and films.
+        for bytes in [&b"P60,1\n"[..], b"BM,speed,force", b"P", b"\0\0\0\x18ftypisom", b"no picture"] {
+            assert_eq!(Found::of(bytes), Found::Unknown);
+            assert!(Found::of(bytes).instead_of_photo().contains("JPEG or PNG"));
+        }
+        assert!(Found::Empty.instead_of_photo().contains("empty"));
+    }
 
     #[test]
     fn widespread_formats_are_known_by_their_first_bytes() {

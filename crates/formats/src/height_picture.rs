@@ -5,14 +5,15 @@
 //! of a ninth of the side is faded into the opposite edge: the tile has 8/9 of the side of the square.
 //!
 //! Row 0 of a picture is its top, the side of positive y, and the tile begins at the left and lower edges of the square:
-//! a tip at (x, y) is at the pixel of the picture at (x, y), to half a height.
+//! a tip at (x, y) is at the pixel of the picture at (x, y), to half a height. The picture of a [`PictureTile`] is cut and
+//! faded as its heights are.
 
 use std::f64::consts::FRAC_PI_2;
 
 use shagreen_core::maths::statistics::{is_constant, mean};
 use shagreen_core::texture::height_map::{HeightMap, HeightMapError, HeightMapOptions};
 
-use crate::picture::{Brightness, PictureError, brightness};
+use crate::picture::{Brightness, Picture, PictureError, Rgb, brightness_and_colors, encode_jpeg};
 
 /// Most heights along a side. More of them rarely pass the contact patch, and the renderer needs memory for all of them.
 const MOST_HEIGHTS: usize = 256;
@@ -29,17 +30,6 @@ pub struct HeightScale {
     pub side_m: f64,
     /// Height of white above black, in m.
     pub height_m: f64,
-}
-
-/// A height map made from a picture, and how it was made.
-#[derive(Clone, Debug, PartialEq)]
-pub struct HeightPicture {
-    /// Height map with zero mean.
-    pub map: HeightMap,
-    /// Whether the edges of the picture fit together, so that nothing was changed there.
-    pub is_seamless: bool,
-    /// Whether the picture has colors: it is a photo rather than a measured height map.
-    pub is_colored: bool,
 }
 
 /// Why a picture is no height map.
@@ -71,41 +61,82 @@ pub enum HeightPictureError {
     Map(#[from] HeightMapError),
 }
 
-/// Makes a height map from the bytes of a JPEG or PNG, of which brightness (up to 16 bits in a PNG) is the height.
-///
-/// # Errors
-/// See [`HeightPictureError`].
-pub fn height_picture(
-    bytes: &[u8],
-    scale: HeightScale,
-    options: HeightMapOptions,
-) -> Result<HeightPicture, HeightPictureError> {
-    let HeightScale { side_m, height_m } = scale;
-    if !(height_m.is_finite() && height_m > 0.0) {
-        return Err(HeightPictureError::Height { height_m });
+/// The tile of a picture: read once, for height maps of any size.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureTile {
+    /// Brightness, 0 to 1, minus its mean, in the order of the heights of a height map.
+    brightness: Vec<f64>,
+    /// Side of the tile relative to that of the central square.
+    side_share: f64,
+    /// Pixels of the tile.
+    pixels: Rgb,
+    /// Whether the edges of the picture fit together, so that nothing was changed there.
+    pub is_seamless: bool,
+    /// Whether the picture has colors: it is a photo rather than a measured height map.
+    pub is_colored: bool,
+}
+
+impl PictureTile {
+    /// Reads the bytes of a JPEG or PNG, of which brightness (up to 16 bits in a PNG) will be the height.
+    ///
+    /// # Errors
+    /// [`HeightPictureError::Picture`], [`HeightPictureError::Small`] and [`HeightPictureError::Flat`].
+    pub fn read(bytes: &[u8]) -> Result<Self, HeightPictureError> {
+        let (picture, colors) = brightness_and_colors(bytes)?;
+        let pixels = picture.width.min(picture.height);
+        if pixels < LEAST_PIXELS {
+            return Err(HeightPictureError::Small { pixels });
+        }
+        let gray = gray_of(&picture);
+        let whole = gray.square(power_of_two_up_to(pixels));
+        if is_constant(&whole) {
+            return Err(HeightPictureError::Flat);
+        }
+        let is_seamless = is_seamless(&whole);
+        let (mut tile, side_share, n) = if is_seamless {
+            (whole, 1.0, power_of_two_up_to(pixels))
+        } else {
+            let n = power_of_two_up_to(pixels * 8 / 9);
+            let mut wide = gray.square(n + n / 8);
+            subtract_plane(&mut wide);
+            (faded(&wide, n), 8.0 / 9.0, n)
+        };
+        let mean = mean(&tile);
+        for brightness in &mut tile {
+            *brightness -= mean;
+        }
+        let pixels = colors.as_ref().map_or_else(
+            || pixels_of(&[gray.tile(n, is_seamless)], n),
+            |rgb| pixels_of(&channels_of(rgb).map(|channel| channel.tile(n, is_seamless)), n),
+        );
+        let is_colored = picture.is_colored;
+        Ok(Self { brightness: tile, side_share, pixels, is_seamless, is_colored })
     }
-    let picture = brightness(bytes)?;
-    let pixels = picture.width.min(picture.height);
-    if pixels < LEAST_PIXELS {
-        return Err(HeightPictureError::Small { pixels });
+
+    /// The height map of the tile in this size, with zero mean.
+    ///
+    /// # Errors
+    /// [`HeightPictureError::Height`] and [`HeightPictureError::Map`].
+    pub fn height_map(
+        &self,
+        scale: HeightScale,
+        options: HeightMapOptions,
+    ) -> Result<HeightMap, HeightPictureError> {
+        let HeightScale { side_m, height_m } = scale;
+        if !(height_m.is_finite() && height_m > 0.0) {
+            return Err(HeightPictureError::Height { height_m });
+        }
+        let heights_m = self.brightness.iter().map(|brightness| height_m * brightness).collect();
+        Ok(HeightMap::new(heights_m, side_m * self.side_share, options)?)
     }
-    let whole = square(&picture, power_of_two_up_to(pixels));
-    if is_constant(&whole) {
-        return Err(HeightPictureError::Flat);
+
+    /// The picture of the tile, which repeats as its heights do; `side_m` is the side of the central square.
+    ///
+    /// # Errors
+    /// [`HeightPictureError::Picture`] if it cannot be compressed.
+    pub fn picture(&self, side_m: f64) -> Result<Picture, HeightPictureError> {
+        Ok(encode_jpeg(&self.pixels, 1e3 * side_m * self.side_share)?)
     }
-    let is_seamless = is_seamless(&whole);
-    let (tile, side_m) = if is_seamless {
-        (whole, side_m)
-    } else {
-        let n = power_of_two_up_to(pixels * 8 / 9);
-        let mut wide = square(&picture, n + n / 8);
-        subtract_plane(&mut wide);
-        (faded(&wide, n), side_m * 8.0 / 9.0)
-    };
-    let mean = mean(&tile);
-    let heights_m = tile.iter().map(|brightness| height_m * (brightness - mean)).collect();
-    let map = HeightMap::new(heights_m, side_m, options)?;
-    Ok(HeightPicture { map, is_seamless, is_colored: picture.is_colored })
 }
 
 /// The largest number of heights along a side that is a power of two and at most `pixels`.
@@ -117,28 +148,71 @@ fn power_of_two_up_to(pixels: usize) -> usize {
     n
 }
 
-/// Mean brightness, 0 to 1, of `n` × `n` equal cells of the central square; the first row is the lowest one.
-fn square(picture: &Brightness, n: usize) -> Vec<f64> {
-    let side = picture.width.min(picture.height);
-    let (left, top) = ((picture.width - side) / 2, (picture.height - side) / 2);
-    let overlaps: Vec<_> = (0..side).map(|pixel| overlaps(pixel, side, n)).collect();
-    let mut cells = vec![0.0; n * n];
-    let rows = picture.values.chunks_exact(picture.width).skip(top);
-    for (row, overlapped_rows) in rows.zip(&overlaps) {
-        let mut row_cells = vec![0.0; n];
-        for (value, overlapped) in row.iter().skip(left).zip(&overlaps) {
-            for (cell, share) in overlapped {
-                row_cells[*cell] += share * f64::from(*value) / f64::from(u16::MAX);
+/// One value of each pixel of a picture, such as its brightness.
+struct Channel<V> {
+    width: usize,
+    height: usize,
+    /// Value of the pixel with this index, row by row from the upper left.
+    value: V,
+    /// Value of white.
+    white: f64,
+}
+
+fn gray_of(picture: &Brightness) -> Channel<impl Fn(usize) -> f64> {
+    let Brightness { width, height, values, .. } = picture;
+    let value = move |pixel: usize| f64::from(values[pixel]);
+    Channel { width: *width, height: *height, value, white: f64::from(u16::MAX) }
+}
+
+/// Red, green and blue.
+fn channels_of(rgb: &Rgb) -> [Channel<impl Fn(usize) -> f64>; 3] {
+    let (width, height) = (rgb.width as usize, rgb.height as usize);
+    [0, 1, 2].map(|color| {
+        let value = move |pixel: usize| f64::from(rgb.pixels[3 * pixel + color]);
+        Channel { width, height, value, white: f64::from(u8::MAX) }
+    })
+}
+
+impl<V: Fn(usize) -> f64> Channel<V> {
+    /// Means from 0 to 1 over `n` × `n` equal cells of the central square; the first row is the lowest one.
+    fn square(&self, n: usize) -> Vec<f64> {
+        let side = self.width.min(self.height);
+        let (left, top) = ((self.width - side) / 2, (self.height - side) / 2);
+        let overlaps: Vec<_> = (0..side).map(|pixel| overlaps(pixel, side, n)).collect();
+        let mut cells = vec![0.0; n * n];
+        for (row, overlapped_rows) in overlaps.iter().enumerate() {
+            let begin = (top + row) * self.width + left;
+            let mut row_cells = vec![0.0; n];
+            for (column, overlapped) in overlaps.iter().enumerate() {
+                let value = (self.value)(begin + column);
+                for (cell, share) in overlapped {
+                    row_cells[*cell] += share * value / self.white;
+                }
+            }
+            for (row_from_top, share) in overlapped_rows {
+                let begin = (n - 1 - row_from_top) * n;
+                for (cell, value) in cells[begin..begin + n].iter_mut().zip(&row_cells) {
+                    *cell += share * value;
+                }
             }
         }
-        for (row_from_top, share) in overlapped_rows {
-            let begin = (n - 1 - row_from_top) * n;
-            for (cell, value) in cells[begin..begin + n].iter_mut().zip(&row_cells) {
-                *cell += share * value;
-            }
-        }
+        cells
     }
-    cells
+
+    /// The same as a tile: the square itself, or a larger one with faded borders.
+    fn tile(&self, n: usize, is_seamless: bool) -> Vec<f64> {
+        if is_seamless { self.square(n) } else { faded(&self.square(n + n / 8), n) }
+    }
+}
+
+/// Pixels of `n` × `n` cells, of which the first row is the lowest one, with one channel for all colors or three.
+fn pixels_of(channels: &[Vec<f64>], n: usize) -> Rgb {
+    let level = |share: f64| (255.0 * share).round() as u8;
+    let pixel = |index: usize| {
+        let cell = (n - 1 - index / n) * n + index % n;
+        [0, 1, 2].map(|color: usize| level(channels[color.min(channels.len() - 1)][cell]))
+    };
+    Rgb { width: n as u32, height: n as u32, pixels: (0..n * n).flat_map(pixel).collect() }
 }
 
 /// The cells that a pixel overlaps when `side` pixels are divided into `n` cells, at most as many, and by how much in

@@ -2,18 +2,25 @@
 
 use shagreen_core::space::LabelSource;
 
+use crate::axis_sources::is_predicted_from_ratings;
 use crate::library::Library;
 
 /// Text in the origin of built-in libraries that human ratings make false. Saved libraries contain it, so it must not
 /// change.
 const NOBODY_RATED: &str = " and nobody rated one";
+/// Source of positions that models trained on ratings predicted. Saved libraries contain it, so it must not change.
+const PREDICTED: &str = "predictions from vibration features (models trained on human ratings)";
 /// Start of the sentence on positions. Saved libraries contain it, so it must not change.
 const POSITIONS: &str = "Positions come from ";
 
 /// Makes the origin of a library state the label sources of its positions; replaces an earlier such sentence.
 pub(crate) fn state_origin_of_places(library: &mut Library) {
     let sources = library.label_sources();
-    if sources.contains(&LabelSource::HumanRatings) {
+    let report = library.space_report.as_ref();
+    let is_predicted = report.is_some_and(is_predicted_from_ratings);
+    if sources.contains(&LabelSource::HumanRatings)
+        || (is_predicted && sources.contains(&LabelSource::Estimated))
+    {
         let texts = library.textures.iter_mut().map(|texture| &mut texture.origin);
         for text in texts.chain([&mut library.origin, &mut library.description]) {
             if text.contains(NOBODY_RATED) {
@@ -28,7 +35,11 @@ pub(crate) fn state_origin_of_places(library: &mut Library) {
     let rest = library.origin.trim_end();
     let stop = if rest.ends_with(char::is_alphanumeric) { "." } else { "" };
     let space = if rest.is_empty() { "" } else { " " };
-    let labels: Vec<&str> = sources.into_iter().map(LabelSource::label).collect();
+    let label = |source: LabelSource| match source {
+        LabelSource::Estimated if is_predicted => PREDICTED,
+        source => source.label(),
+    };
+    let labels: Vec<&str> = sources.into_iter().map(label).collect();
     library.origin = match &labels[..] {
         [] => rest.to_owned(),
         labels => format!("{rest}{stop}{space}{POSITIONS}{}.", labels.join(" and ")),
@@ -38,7 +49,8 @@ pub(crate) fn state_origin_of_places(library: &mut Library) {
 /// Returns whether this is a sentence of [`state_origin_of_places`] with nothing after it.
 fn is_ours(sentence: &str) -> bool {
     let labels = sentence.strip_prefix(POSITIONS).and_then(|rest| rest.strip_suffix('.'));
-    let is_label = |label: &str| LabelSource::ALL.iter().any(|source| source.label() == label);
+    let is_label =
+        |label: &str| label == PREDICTED || LabelSource::ALL.iter().any(|source| source.label() == label);
     labels.is_some_and(|labels| labels.split(" and ").all(is_label))
 }
 
@@ -73,6 +85,19 @@ mod tests {
         assert_eq!(library.textures[3].origin, format!("{MADE}."));
         let origin = placed_by(&mut library, &[physical, human]);
         assert_eq!(origin, format!("{MADE}. Positions come from physical labels and human ratings."));
+        // A report of predicted positions states what their models were trained on.
+        library.space_report = Some(serde_json::json!({
+            "label_source": "human",
+            "axes": [{"name": "rough-smooth", "placed_by": "predicted"}],
+        }));
+        let origin = placed_by(&mut library, &[LabelSource::Estimated]);
+        assert_eq!(
+            origin,
+            format!(
+                "{MADE}. Positions come from predictions from vibration features (models trained on human ratings)."
+            )
+        );
+        library.space_report = None;
         library.textures.iter_mut().for_each(|texture| texture.place = None);
         assert_eq!(placed_by(&mut library, &[human]), format!("{MADE}."));
     }

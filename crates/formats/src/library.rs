@@ -66,6 +66,7 @@
 //!   "step_m": 1e-9, "base64": "…"}`: one square tile of `n` by `n` heights, row by row from y = 0, which repeats in both
 //!   directions. Heights are integers of 16 bits, little endian, in steps of `step_m`. The acceleration grows with this
 //!   power of the tip speed; at the force `force_n`, the contact patch has the radius `patch_radius_mm`.
+//! - `"space": {…, "sd": [10.0, 25.0]}`: standard deviation of an estimated position on both axes.
 //! - `"stick_slip": {"static_ratio": 1.6, "stribeck_mm_per_s": 20.0}`: static friction relative to the kinetic friction
 //!   `mu`, and Stribeck speed.
 //!
@@ -183,6 +184,15 @@ pub struct Place {
     pub at: SpacePoint,
     /// What the position was derived from.
     pub source: LabelSource,
+    /// Standard deviation of an estimated position on both axes, 0 to 100; `None` if it is not known.
+    pub deviation: Option<[f64; 2]>,
+}
+
+impl Place {
+    /// Position without a known standard deviation.
+    pub fn new(at: SpacePoint, source: LabelSource) -> Self {
+        Self { at, source, deviation: None }
+    }
 }
 
 /// The physical quantities behind [`LabelSource::PhysicalLabels`].

@@ -19,6 +19,8 @@ use image::{
 };
 use shagreen_core::surfaces::shading::Picture as Surface;
 
+use crate::foreign_file::Found;
+
 /// JPEG quality of the pictures in a library, 1..100.
 pub const JPEG_QUALITY: u8 = 85;
 
@@ -216,16 +218,23 @@ pub fn brightness_row(bytes: &[u8], row: Option<u32>) -> Result<Vec<f64>, Pictur
     Ok((0..photo.width()).map(pixel).collect())
 }
 
-/// Returns the brightness of all pixels of a photo or a height map, upright, with the resolution of the file.
+/// Returns the brightness of all pixels of a photo or a height map, upright, with the resolution of the file, and its
+/// colors if the file stores colors.
 ///
 /// # Errors
 /// As [`of_photo`].
-pub fn brightness(bytes: &[u8]) -> Result<Brightness, PictureError> {
+pub fn brightness_and_colors(bytes: &[u8]) -> Result<(Brightness, Option<Rgb>), PictureError> {
     let photo = upright(bytes)?;
-    let is_colored = photo.color().has_color();
-    let gray = photo.into_luma16();
+    let (gray, colors) = if photo.color().has_color() {
+        let gray = photo.to_luma16();
+        let rgb = photo.into_rgb8();
+        (gray, Some(Rgb { width: rgb.width(), height: rgb.height(), pixels: rgb.into_raw() }))
+    } else {
+        (photo.into_luma16(), None)
+    };
     let (width, height) = (gray.width() as usize, gray.height() as usize);
-    Ok(Brightness { width, height, values: gray.into_raw(), is_colored })
+    let brightness = Brightness { width, height, values: gray.into_raw(), is_colored: colors.is_some() };
+    Ok((brightness, colors))
 }
 
 /// Returns whether bytes begin like a JPEG or PNG.
@@ -241,7 +250,7 @@ fn photo_format(bytes: &[u8]) -> Option<ImageFormat> {
 fn upright(bytes: &[u8]) -> Result<DynamicImage, PictureError> {
     let bytes = without_large_texts(bytes);
     let mut reader = ImageReader::new(Cursor::new(&*bytes));
-    let format = photo_format(&bytes).ok_or(PictureError::NoPhoto)?;
+    let format = photo_format(&bytes).ok_or_else(|| PictureError::NoPhoto { found: Found::of(&bytes) })?;
     if format == ImageFormat::Jpeg && is_cut_off(&bytes) {
         return Err(PictureError::CutOff);
     }
@@ -363,8 +372,9 @@ mod tests {
         assert!(rgb.pixels[0] < 12 && rgb.pixels[rgb.pixels.len() - 3] > 240, "the picture is upside down");
         let small = encode_jpeg(&gradient(), 20.0).unwrap();
         assert_eq!(of_photo(&small.bytes, 20.0).unwrap().width, 32);
-        assert!(matches!(of_photo(b"GIF89a", 20.0), Err(PictureError::NoPhoto)));
-        assert!(matches!(of_photo(b"", 20.0), Err(PictureError::NoPhoto)));
+        let gif = of_photo(b"GIF89a", 20.0).unwrap_err();
+        assert!(gif.to_string().contains("a GIF picture"), "{gif}");
+        assert!(matches!(of_photo(b"", 20.0), Err(PictureError::NoPhoto { .. })));
         assert!(matches!(of_photo(&bytes.get_ref()[..200], 20.0), Err(PictureError::Codec(_))));
         let wide = image::GrayImage::new(MAX_PHOTO_SIDE + 1, 1);
         let mut bytes = std::io::Cursor::new(Vec::new());

@@ -19,7 +19,8 @@ pub struct PlacedSpace {
     pub report: Value,
 }
 
-/// Position and attributes of one texture.
+/// Position and attributes of one texture. A position that features predict on an axis is an estimate; the attributes
+/// stay what people or simulated raters rated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlacedTexture {
     /// Identifier of the texture.
@@ -35,7 +36,7 @@ impl PlacedSpace {
     pub fn of(build: &SpaceBuild) -> Self {
         let texture = |(i, id): (usize, &String)| PlacedTexture {
             id: id.clone(),
-            place: Place { at: build.positions[i], source: build.source },
+            place: Place::new(build.positions[i], build.place_source()),
             attributes: Some(attributes(build, i)).filter(|a| !a.values.is_empty()),
         };
         let mut report = space_report(build);
@@ -63,8 +64,8 @@ impl PlacedSpace {
             texture.place = found.map(|known| known.place);
             texture.attributes = found.and_then(|known| known.attributes.clone());
         }
-        state_origin_of_places(&mut placed);
         placed.space_report = Some(self.report.clone());
+        state_origin_of_places(&mut placed);
         placed.axes.clone_from(&self.axes);
         placed
     }

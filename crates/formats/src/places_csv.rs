@@ -249,7 +249,7 @@ pub fn read_places(
             }
         }
         let attributes = Attributes { source, values };
-        placements.push(Placement { id: id.to_owned(), place: Place { at: point, source }, attributes });
+        placements.push(Placement { id: id.to_owned(), place: Place::new(point, source), attributes });
     }
     let warning = unused_warning(&table, &unused, NAME_BOTH_POLES);
     Ok(Imported { value: Places { axes, placements }, warnings: warning.into_iter().collect() })

@@ -3,13 +3,13 @@
 //! ```json
 //! {
 //!   "format": "shagreen-project",
-//!   "version": "1.1",
+//!   "version": "1.2",
 //!   "units": {"length": "mm", "time": "s"},
 //!   "created_by": "…", "notes": "…",
 //!   "library": {"built_in": "starter"},
 //!   "axes": ["warm-cold", "flat-bumpy"],
 //!   "renamed": {"cork": "Cork, sanded"}, "starred": ["oak"],
-//!   "selected": 1, "solo": "oak",
+//!   "selected": 1, "solo": "oak", "compared": [1, 3],
 //!   "authored": [{
 //!     "key": 1, "name": "Oak copy", "color": 3, "notes": "…", "tags": ["wood"],
 //!     "rough_smooth": 41.5, "hard_soft": 70.0,
@@ -21,16 +21,19 @@
 //!   }],
 //!   "snapshots": […],
 //!   "space": {"axes": […], "textures": [{"id": "cork", "space": {…}, "attributes": {…}}], "report": {…}},
-//!   "joined": […]
+//!   "joined": [{"id": "felt-2", "own": true, …}]
 //! }
 //! ```
 //!
 //! - `library` is a built-in library (`built_in`), another file (`{"file": "woods.json", "sha256": "…"}`, relative to
 //!   the folder of the project if it lies inside that folder), or embedded (`{"inside": {…}}`, a whole library).
 //! - `joined` are textures added to those of the library, in the library format. `renamed`, `starred`, `locked` and
-//!   `solo` refer to textures by their identifiers.
+//!   `solo` refer to textures by their identifiers. An added texture that is `own` belongs to the authored textures that
+//!   have it in `locked`, and takes part in no other.
 //! - `locked` are the pinned textures of the interpolation mode Field.
-//! - `shape` has the values of [`Shape`] that are not neutral. A project with shapes has the version 1.1, others 1.0.
+//! - `compared` are the keys of the authored textures on the sides A and B of a comparison.
+//! - `shape` has the values of [`Shape`] that are not neutral. A project with `own` textures has the
+//!   version 1.2, one with shapes 1.1, others 1.0.
 //! - `snapshots` are saved states of authored textures.
 //! - `space` is a space that was built in this project; it gives the textures their positions, in the library format.
 //!
@@ -39,6 +42,8 @@
 
 pub mod clipboard;
 mod error;
+mod listed_ids;
+mod own;
 mod read;
 mod shape;
 mod v1;
@@ -62,6 +67,7 @@ use crate::placed_space::PlacedSpace;
 use crate::starter::SimulatedLibraryError;
 
 pub use crate::project::error::ProjectError;
+pub use crate::project::own::OwnTextures;
 pub use crate::project::read::{read_project, read_project_on, sha256_hex};
 pub use crate::project::write::write_project;
 
@@ -70,7 +76,7 @@ pub const FORMAT: &str = "shagreen-project";
 /// Supported major version; files of another one are rejected.
 pub const VERSION_MAJOR: u32 = 1;
 /// Highest minor version that is read completely; a newer one may add fields.
-pub const VERSION_MINOR: u32 = 1;
+pub const VERSION_MINOR: u32 = 2;
 /// File name extension.
 pub const EXTENSION: &str = "shagreen";
 /// Number of colors for authored textures.
@@ -86,6 +92,9 @@ pub struct Project {
     pub selected: usize,
     /// Identifier of a library or added texture that is rendered alone instead of the selected one.
     pub solo: Option<String>,
+    /// Keys of the authored textures on the sides A and B of a comparison; `None` if the user has not chosen them. A texture
+    /// with such a key may be deleted.
+    pub compared: Option<[u32; 2]>,
     /// Saved states of authored textures, oldest first.
     pub snapshots: Vec<Arc<AuthoredTexture>>,
     /// Notes of the user.
@@ -100,8 +109,12 @@ pub struct Project {
     pub space: Option<Arc<PlacedSpace>>,
     /// The library of textures to interpolate from.
     pub library: ProjectLibrary,
-    /// Textures added to those of the library, in the order of addition.
+    /// Textures added to those of the library, in the order of addition. Their identifiers are those of the list; see
+    /// [`Project::follow_listed_ids`].
     pub joined: Vec<Arc<TextureEntry>>,
+    /// Identifiers of added textures that take part only in the authored textures that pin them;
+    /// see [`OwnTextures`].
+    pub own: BTreeSet<String>,
     /// Fields that this version does not know.
     pub unknown: Map<String, Value>,
 }
@@ -252,6 +265,7 @@ impl Project {
             notes: String::new(),
             library,
             joined: Vec::new(),
+            own: BTreeSet::new(),
             renamed: BTreeMap::new(),
             starred: BTreeSet::new(),
             space: None,
@@ -259,6 +273,7 @@ impl Project {
             authored: vec![Arc::new(AuthoredTexture::new(1, name))],
             selected: 0,
             solo: None,
+            compared: None,
             snapshots: Vec::new(),
             unknown: Map::new(),
         }

@@ -13,9 +13,9 @@
 use shagreen_core::people::ratings::{AdjectivePair, PairNameError, Rating, RelevanceVote};
 
 use crate::imported::Imported;
+use crate::judgment_columns::{ADJECTIVE, PARTICIPANT, TEXTURE, VALUE, are_sorts};
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 use crate::pair_columns::{NAME_BOTH_POLES, pair_columns, unused_warning};
-use crate::sorting_csv::{PARTICIPANT, TEXTURE};
 
 /// Why a table holds no ratings.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -44,6 +44,14 @@ pub enum RatingsCsvError {
         /// What the user should do.
         hint: &'static str,
     },
+    /// The table has the columns of sorts.
+    #[error(
+        "this looks like the sorting table: the columns are {found}; give the ratings table here, with the columns participant, texture, adjective and value, or one column per adjective pair, named like \"rough-smooth\""
+    )]
+    Sorting {
+        /// Names of the columns.
+        found: String,
+    },
     /// No column is an adjective pair.
     #[error(
         "no column holds ratings; the columns are {found}; use the columns adjective and value, or one column per adjective pair, named like \"rough-smooth\""
@@ -64,8 +72,6 @@ pub enum RatingsCsvError {
     },
 }
 
-const ADJECTIVE: [&str; 6] = ["adjective", "adjective_pair", "pair", "attribute", "scale", "dimension"];
-const VALUE: [&str; 4] = ["value", "rating", "score", "response"];
 const RELEVANT: [&str; 4] = ["relevant", "selected", "vote", "chosen"];
 
 /// Suggestions for an invalid rating, in either format.
@@ -79,6 +85,9 @@ const RESCALE_OR_RENAME: &str = "convert ratings on another scale first; if the 
 pub fn read_ratings(bytes: &[u8]) -> Result<Imported<Vec<Rating>>, RatingsCsvError> {
     let table = NamedTable::read(bytes, "participant, texture, adjective, value", "rating")?;
     let participant = table.need(&PARTICIPANT)?;
+    if are_sorts(&table) {
+        return Err(RatingsCsvError::Sorting { found: table.columns.join(", ") });
+    }
     let texture = table.need(&TEXTURE)?;
     let mut ratings = Vec::new();
     let mut push = |row_participant: Field<'_>, row_texture: Field<'_>, pair, value| {
@@ -222,6 +231,13 @@ mod tests {
             let message = read_ratings_csv(text.as_bytes()).unwrap_err().to_string();
             assert!(message.contains(words), "{message}");
         };
+        for sorts in [
+            "participant,trial,groups,texture,group\np,1,2,cork,a\n",
+            "participant,trial,cork,felt\np,1,a,b\n",
+            "participant,groups,cork,felt\np,2,a,b\n",
+        ] {
+            check(sorts, "this looks like the sorting table: the columns are participant");
+        }
         check("participant,texture\np,cork\n", "no column holds ratings");
         check(
             "participant,texture,smoothness\np,cork,3\n",

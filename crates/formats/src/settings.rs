@@ -54,6 +54,9 @@ pub struct Settings {
     /// Identifiers of the hints that the user has learned and that do not appear any more.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub learned_hints: Vec<String>,
+    /// Sizes of the panels that the user has moved.
+    #[serde(skip_serializing_if = "PanelSizes::is_usual")]
+    pub panels: PanelSizes,
     /// Recent prompts, newest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub prompts: Vec<KeptPrompt>,
@@ -63,6 +66,31 @@ pub struct Settings {
     /// Fields of other versions.
     #[serde(flatten)]
     pub unknown: Map<String, Value>,
+}
+
+/// Sizes of panels of the window in points; `None` is the usual size. The window limits them to its ranges.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct PanelSizes {
+    /// Width of the texture list.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub library: Option<f32>,
+    /// Width of the inspector.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub inspector: Option<f32>,
+    /// Height of the row with pad and scope.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stage: Option<f32>,
+}
+
+impl PanelSizes {
+    /// Whether all panels have their usual sizes.
+    fn is_usual(&self) -> bool {
+        *self == Self::default()
+    }
+
+    fn is_finite(&self) -> bool {
+        [self.library, self.inspector, self.stage].into_iter().flatten().all(f32::is_finite)
+    }
 }
 
 /// A prompt, and how a picture was generated from it.
@@ -161,6 +189,7 @@ pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
         learned_hints: taken(&mut all, "learned_hints").unwrap_or_default(),
         scale: taken(&mut all, "scale").filter(|scale: &f32| scale.is_finite()),
         template: taken(&mut all, "template").and_then(|path: Value| path_json::from_json(&path)),
+        panels: taken(&mut all, "panels").filter(PanelSizes::is_finite).unwrap_or_default(),
         prompts: taken(&mut all, "prompts").unwrap_or_default(),
         libraries: taken(&mut all, "libraries")
             .map(|all: Vec<Value>| all.iter().filter_map(permitted_library).collect())
@@ -189,6 +218,7 @@ pub fn merged(base: &Settings, ours: &Settings, theirs: Settings) -> Settings {
         scale: newer(&base.scale, &ours.scale, theirs.scale),
         template: newer(&base.template, &ours.template, theirs.template),
         rig: newer(&base.rig, &ours.rig, theirs.rig),
+        panels: newer(&base.panels, &ours.panels, theirs.panels),
         prompts: joined(&base.prompts, &ours.prompts, theirs.prompts, MAX_PROMPTS),
         libraries: joined(&base.libraries, &ours.libraries, theirs.libraries, MAX_LIBRARIES),
         unknown: theirs.unknown,
@@ -247,6 +277,7 @@ mod tests {
         (settings.scale, settings.template) = (Some(1.5), Some("/b.shagreen".into()));
         settings.learned_hints = vec!["drag-point".to_owned()];
         settings.reduces_motion = Some(false);
+        settings.panels.stage = Some(300.5);
         #[cfg(unix)]
         {
             use std::os::unix::ffi::OsStrExt as _;

@@ -21,6 +21,7 @@ use std::collections::{HashMap, HashSet};
 
 use shagreen_core::people::sorting::{Grouped, Sort};
 
+use crate::judgment_columns::{GROUP, GROUPS, PARTICIPANT, TEXTURE, TRIAL, are_ratings};
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 use crate::pair_columns::unused_warning;
 
@@ -42,6 +43,14 @@ pub enum SortingCsvError {
     /// The table cannot be read.
     #[error(transparent)]
     Table(#[from] NamedTableError),
+    /// The table has the columns of ratings.
+    #[error(
+        "this looks like the ratings table: the columns are {found}, and none is named group; give the sorting table here, with the columns participant, trial, groups, texture and group"
+    )]
+    Ratings {
+        /// Names of the columns.
+        found: String,
+    },
     /// There are no texture columns, and no column that names textures.
     #[error(
         "no column holds groups; the columns are {found}; use the columns texture and group, or one column per texture"
@@ -86,15 +95,6 @@ pub enum SortingCsvError {
     },
 }
 
-/// Accepted names of the participant column.
-pub(crate) const PARTICIPANT: [&str; 5] = ["participant", "subject", "rater", "person", "participant_id"];
-const TRIAL: [&str; 4] = ["trial", "sort", "session", "block"];
-const GROUPS: [&str; 4] = ["groups", "n_groups", "number_of_groups", "clusters"];
-/// Accepted names of the texture column.
-pub(crate) const TEXTURE: [&str; 7] =
-    ["texture", "texture_id", "id", "stimulus", "surface", "material", "item"];
-const GROUP: [&str; 4] = ["group", "cluster", "pile", "category"];
-
 /// Reads sortings.
 ///
 /// # Errors
@@ -108,6 +108,7 @@ pub fn read_sorting_csv(bytes: &[u8]) -> Result<SortingTable, SortingCsvError> {
     };
     match (table.find(&TEXTURE), table.find(&GROUP)) {
         (Some(texture), Some(group)) => by_texture(&table, &columns, texture, group),
+        _ if are_ratings(&table) => Err(SortingCsvError::Ratings { found: table.columns.join(", ") }),
         _ => by_sort(&table, &columns),
     }
 }
@@ -277,6 +278,12 @@ mod tests {
             let message = read_sorting_csv(text.as_bytes()).unwrap_err().to_string();
             assert!(message.contains(words), "{message}");
         };
+        for ratings in [
+            "participant,texture,rough-smooth,hard-soft\np,cork,1,2\np,felt,3,4\n",
+            "participant,texture,adjective,value\np,cork,rough-smooth,41\n",
+        ] {
+            check(ratings, "this looks like the ratings table: the columns are participant, texture");
+        }
         check("participant,trial\np,1\n", "no column holds groups");
         check("who,trial,cork\np,1,a\n", "\"participant\"");
         check("participant,trial,groups,cork\np,1,many,a\n", "groups in line 2 is \"many\"");

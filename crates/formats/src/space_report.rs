@@ -1,12 +1,13 @@
 //! Results of building a space: a JSON report for scripts and figures for people.
 
 use serde_json::{Value, json};
-use shagreen_core::people::mds::Ties;
+use shagreen_core::people::mds::Transform;
 use shagreen_core::people::property::correlation_table;
 use shagreen_core::people::ratings::Agreement;
 use shagreen_core::space::selection::PaperChain;
 use shagreen_core::space::space_build::{
-    Adjective, Axis, PlacedBy, Prediction, SpaceBuild, kruskal_word, validation_summary,
+    Adjective, Axis, DegenerateScaling, PlacedBy, Prediction, SpaceBuild, kruskal_word, stress_in_words,
+    stress_of_random_data, validation_summary,
 };
 
 use crate::figure::{Chart, Figure, Mark, Point, Scale, Series, Table, Tone};
@@ -26,7 +27,7 @@ pub const FIGURES: [&str; 8] = [
 ];
 
 /// Version of the report.
-const VERSION: &str = "1.2";
+const VERSION: &str = "1.3";
 
 /// Returns the report: all results of the analysis in one JSON object.
 pub fn space_report(build: &SpaceBuild) -> Value {
@@ -35,17 +36,17 @@ pub fn space_report(build: &SpaceBuild) -> Value {
         "format": FORMAT,
         "version": VERSION,
         "label_source": build.source.id(),
+        "position_source": build.place_source().id(),
         "textures": build.textures.len(),
         "not_placed": build.not_sorted,
         "dimensions": options.n_dims,
         "stress": build.stress,
         "stress_chosen": build.perceptual.stress,
-        "ties": match options.mds.ties {
-            Ties::Primary => "primary",
-            Ties::Secondary => "secondary",
-        },
+        "ties": options.mds.transform.id(),
+        "degenerate": build.degenerate.as_ref().map(degenerate),
         "converged": build.perceptual.converged,
-        "stress_in_words": kruskal_word(build.perceptual.stress),
+        "stress_in_words": stress_in_words(build),
+        "stress_of_random_data": stress_of_random_data(build),
         "adjectives": build.adjectives.iter().map(adjective).collect::<Vec<_>>(),
         "axes": build.axes.iter().map(|axis| self::axis(build, axis)).collect::<Vec<_>>(),
         "angle_degrees": build.angle_degrees,
@@ -74,6 +75,19 @@ pub fn space_report(build: &SpaceBuild) -> Value {
         "seed": options.seed,
         "verdict": validation_summary(build),
         "warnings": build.findings,
+    })
+}
+
+/// A degenerate solution of multidimensional scaling, and whether interval scaling replaced it.
+fn degenerate(degenerate: &DegenerateScaling) -> Value {
+    json!({
+        "ties": degenerate.transform.id(),
+        "replaced": degenerate.is_replaced,
+        "coincident_pairs": degenerate.signs.n_coincident,
+        "largest_coincident_dissimilarity": degenerate.signs.largest_coincident,
+        "steps": degenerate.signs.n_steps,
+        "dissimilarities": degenerate.signs.n_levels,
+        "pairs": degenerate.signs.n_pairs,
     })
 }
 
@@ -178,8 +192,11 @@ pub fn space_figures(build: &SpaceBuild) -> Vec<(&'static str, Figure)> {
         shepard(build),
     ];
     let mut figures: Vec<(&'static str, Figure)> = FIGURES.into_iter().zip(figures).collect();
-    for (_, figure) in &mut figures {
+    for (name, figure) in &mut figures {
         figure.set_source(build.source.label());
+        if *name == "authoring-space" && build.place_source() != build.source {
+            figure.set_source(&format!("{} from {}", build.place_source().label(), build.source.label()));
+        }
     }
     figures
 }
@@ -236,16 +253,22 @@ fn stress(build: &SpaceBuild) -> Figure {
         build.perceptual.stress,
         format!("{:.3}", build.perceptual.stress),
     );
+    // Kruskal's words do not apply to the stress of interval scaling.
+    let limits = match build.options.mds.transform {
+        Transform::PrimaryTies | Transform::SecondaryTies => vec![limit(0.1), limit(0.05)],
+        Transform::Interval => Vec::new(),
+    };
     chart(
         "Stress over number of dimensions".to_owned(),
         ["dimensions", "stress-1"],
         false,
-        vec![
-            limit(0.1),
-            limit(0.05),
-            series("stress", Mark::Line, Tone::Main, by_dims),
-            series("chosen", Mark::Dots, Tone::Second, vec![chosen]),
-        ],
+        limits
+            .into_iter()
+            .chain([
+                series("stress", Mark::Line, Tone::Main, by_dims),
+                series("chosen", Mark::Dots, Tone::Second, vec![chosen]),
+            ])
+            .collect(),
     )
 }
 

@@ -1,22 +1,31 @@
 //! Strokes as CSV tables, separated by commas, semicolons or tabs, with or without a header.
 //!
-//! With a header, columns are found by name: `t` or `time` (with `ms` or `s`), then either `x` and `y` in mm with
-//! `pressure` (0..1) or `force` in N, or `speed` in mm/s with `force` in N. `touching` (0 or 1) may state contact;
-//! otherwise the tip is lifted at zero pressure or force. `speed_normal` in mm/s may state how fast the tip lands; an
-//! empty field of this column is unknown. Without a header, three columns are time, speed and force,
-//! and four are time, x, y and force. Decimal commas are accepted, in quotes if commas separate the columns.
+//! With a header, columns are found by name: `t` or `time`, then either `x` and `y` with `pressure` (0..1) or `force`, or
+//! `speed` with `force`. A name may state a unit of [`crate::recording`], as in `t_ms`, `speed_m/s` or `force_mN`; without
+//! one, mm, mm/s and N are assumed. `touching` (0 or 1) may state contact; otherwise the tip is lifted at zero pressure or
+//! force. `speed_normal` may state how fast the tip lands; an empty field of this column is unknown, and without a unit it has
+//! that of `speed`. Without a header, three columns are time, speed and force, and four are time, x, y and force. Decimal commas
+//! are accepted, in quotes if commas separate the columns.
 
 mod columns;
 
 use std::fmt::Write as _;
 
+use shagreen_core::dsp::spectrum::median;
+
 use crate::csv_text::{self, TableTextError, line_of, number};
 use crate::imported::Imported;
 use crate::stroke::{PenSample, PressUnit, Stroke, TimedContact};
-use crate::stroke_csv::columns::{Columns, Kind, TimeUnit};
+use crate::stroke_csv::columns::{Columns, Kind};
 
 /// Maximum duration for which an unlabeled time column is read as seconds, in s.
 pub const LONGEST_IN_SECONDS: f64 = 60.0;
+
+/// Median speed of the moving tip below which m/s were probably meant, if mm/s are assumed, in mm/s.
+const SLOWEST_MM_PER_S: f64 = 1.0;
+
+/// Median interval between rows of positions above which the motion between them is not known, in s.
+const LONGEST_INTERVAL_SECS: f64 = 0.05;
 
 /// Why bytes are not a stroke.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -114,6 +123,8 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
         rows.push(parse_row(&columns, &record, line_of(text, &record), delimiter)?);
     }
     let secs_per_unit = secs_per_unit(&columns, &rows, &mut warnings)?;
+    warnings.extend(columns.assumed_units());
+    let [first_si, second_si, third_si] = columns.values_si();
     let start = rows.first().map_or(0.0, |row| row.time);
     let time_secs = |row: &Row| (row.time - start) * secs_per_unit;
     let stroke = match columns.kind {
@@ -121,8 +132,8 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
             rows.iter()
                 .map(|row| TimedContact {
                     time_secs: time_secs(row),
-                    speed_mps: 1e-3 * row.values[0],
-                    force_n: if row.touching == Some(false) { 0.0 } else { row.values[1] },
+                    speed_mps: first_si * row.values[0],
+                    force_n: if row.touching == Some(false) { 0.0 } else { second_si * row.values[1] },
                     impact_mps: row.impact_mps,
                 })
                 .collect(),
@@ -130,16 +141,42 @@ pub fn read_stroke_csv(bytes: &[u8]) -> Result<Imported<Stroke>, StrokeCsvError>
         Kind::Pen(press_unit) => {
             let sample = |row: &Row| PenSample {
                 time_secs: time_secs(row),
-                x_m: 1e-3 * row.values[0],
-                y_m: 1e-3 * row.values[1],
-                press: row.values[2],
+                x_m: first_si * row.values[0],
+                y_m: second_si * row.values[1],
+                press: third_si * row.values[2],
                 touching: row.touching.unwrap_or(row.values[2] > 0.0),
                 impact_mps: row.impact_mps,
             };
             Stroke::Pen { samples: rows.iter().map(sample).collect(), press_unit }
         }
     };
+    warnings.extend(match &stroke {
+        Stroke::Contacts(contacts) => slow_speeds(contacts).filter(|_| columns.speed_is_assumed()),
+        Stroke::Pen { samples, .. } => long_intervals(samples),
+    });
     Ok(Imported { value: stroke, warnings })
+}
+
+/// Returns a warning if the tip moves so slowly that the speeds are probably in m/s.
+fn slow_speeds(contacts: &[TimedContact]) -> Option<String> {
+    let moving = contacts.iter().filter(|contact| contact.force_n > 0.0 && contact.speed_mps > 0.0);
+    let mm_per_s = 1e3 * median(moving.map(|contact| contact.speed_mps).collect());
+    (mm_per_s < SLOWEST_MM_PER_S).then(|| {
+        format!(
+            "the median speed in contact is {mm_per_s:.3} mm/s; did you mean {mm_per_s:.3} m/s? Then name the column speed_m/s"
+        )
+    })
+}
+
+/// Returns a warning if the rows of positions are too far apart to show how the tip moves between them.
+fn long_intervals(samples: &[PenSample]) -> Option<String> {
+    let interval_secs =
+        median(samples.windows(2).map(|pair| pair[1].time_secs - pair[0].time_secs).collect());
+    (interval_secs > LONGEST_INTERVAL_SECS).then(|| {
+        format!(
+            "the rows are {interval_secs:.3} s apart (median); the tip speed between them is distance over time, and faster changes are unknown: record at least 20 rows a second"
+        )
+    })
 }
 
 /// Returns whether a table is a stroke by the names in its header; `head` must contain the whole header line. Column
@@ -226,7 +263,7 @@ fn parse_row(
         time,
         values,
         touching: touching.map(|value| value != 0.0),
-        impact_mps: speed_normal.map(|mm_per_s| 1e-3 * mm_per_s),
+        impact_mps: speed_normal.map(|speed| columns.speed_normal_mps * speed),
     })
 }
 
@@ -239,9 +276,8 @@ fn secs_per_unit(columns: &Columns, rows: &[Row], warnings: &mut Vec<String>) ->
             return Err(StrokeCsvError::TimeGoesBack { line: pair[1].line, before, time });
         }
     }
-    Ok(match columns.time_unit {
-        Some(TimeUnit::Seconds) => 1.0,
-        Some(TimeUnit::Milliseconds) => 1e-3,
+    Ok(match columns.time_secs {
+        Some(secs) => secs,
         None if last.time - first.time <= LONGEST_IN_SECONDS => {
             warnings.push(
                 "the unit of time is not stated; seconds are assumed (name the column t_s or t_ms)"

@@ -42,15 +42,31 @@ pub fn begin_of(text: String, most: usize) -> String {
     }
 }
 
+/// Returns a text with this sentence at its end, in at most `most` characters: the text is shortened, not the sentence, unless
+/// that alone is too long.
+pub fn begin_and_end(begin: &str, end: &str, most: usize) -> String {
+    let left = most.saturating_sub(end.chars().count() + 1);
+    let begin = begin_of(begin.to_owned(), left);
+    begin_of(format!("{begin} {end}").trim_start().to_owned(), most)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{begin_of, check};
+    use super::{begin_and_end, begin_of, check};
 
     #[test]
     fn what_is_cut_off_passes_the_check() {
         assert_eq!(begin_of("äöü".to_owned(), 2), "äö");
         assert_eq!(begin_of("äöü".to_owned(), 3), "äöü");
         assert!(check("it", &begin_of("ä".repeat(50), 10), 10).is_ok());
+    }
+
+    #[test]
+    fn the_sentence_at_the_end_stays() {
+        assert_eq!(begin_and_end("About it.", "New.", 99), "About it. New.");
+        assert_eq!(begin_and_end("", "New.", 99), "New.");
+        assert_eq!(begin_and_end("äöüß", "Neü.", 7), "äö Neü.");
+        assert_eq!(begin_and_end("äöü", "New.", 3), "New");
     }
 
     #[test]

@@ -38,6 +38,9 @@ pub struct SidecarV1 {
     pub rate_hz: u32,
     /// Duration in s.
     pub seconds: f64,
+    /// Name of the texture, if it has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
     /// Identifier of the texture, if a library texture was rendered.
     pub texture: Option<String>,
     /// Position in the space, rough-smooth and hard-soft (0..100), if an authored texture was rendered.
@@ -81,6 +84,7 @@ impl SidecarV1 {
             ],
             rate_hz,
             seconds,
+            name: None,
             texture: None,
             at: None,
             clamped: false,
@@ -123,7 +127,7 @@ pub struct ParentV1 {
     pub licence: String,
 }
 
-/// The stroke of the tip: three columns of equal length, linearly interpolated.
+/// The stroke of the tip: columns of equal length; time, speed, force and position are linearly interpolated.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TraceV1 {
     /// Times from the first sample of the signal, in s.
@@ -132,6 +136,16 @@ pub struct TraceV1 {
     pub speed_mm_per_s: Vec<f64>,
     /// Normal forces in N; zero while the tip is lifted.
     pub force_n: Vec<f64>,
+    /// Positions to the right in mm; absent if only the speed is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub x_mm: Option<Vec<f64>>,
+    /// Positions upwards in mm; absent if only the speed is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub y_mm: Option<Vec<f64>>,
+    /// Speeds in mm/s at which the tip lands, at the first time of each contact whose impact speed is stated, and null at
+    /// all other times; absent if none is stated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub speed_normal_mm_per_s: Option<Vec<Option<f64>>>,
 }
 
 /// Why a signal was not written.
@@ -241,6 +255,7 @@ mod tests {
             channels: vec!["acceleration".into()],
             rate_hz: 1000,
             seconds: 0.003,
+            name: None,
             texture: None,
             at: Some([30.0, 70.0]),
             clamped: false,
@@ -252,7 +267,14 @@ mod tests {
             label_source: Some("physical".into()),
             seed: 5,
             stroke: None,
-            trace: TraceV1 { time_s: vec![0.0], speed_mm_per_s: vec![100.0], force_n: vec![1.0] },
+            trace: TraceV1 {
+                time_s: vec![0.0, 0.003],
+                speed_mm_per_s: vec![100.0; 2],
+                force_n: vec![1.0; 2],
+                x_mm: Some(vec![0.0, 0.3]),
+                y_mm: Some(vec![0.0; 2]),
+                speed_normal_mm_per_s: Some(vec![Some(50.0), None]),
+            },
             created_by: "shagreen".into(),
         }
     }

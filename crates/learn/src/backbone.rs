@@ -25,21 +25,21 @@ pub const CONVERT_EFFICIENTNET: &str = include_str!("backbone/convert.py");
 #[non_exhaustive]
 pub enum BackboneError {
     /// The file is damaged or not safetensors.
-    #[error("it is not a safetensors file, or damaged: {0}; get the file again")]
-    Tensors(#[from] safetensors::SafeTensorError),
+    #[error("it is not a safetensors file, or it is damaged; choose another file, or get this one again")]
+    Tensors(safetensors::SafeTensorError),
     /// The network is unknown.
     #[error(
-        "it is neither an EfficientNet-Lite0 nor a ResNet-50: it has no tensor \"_conv_stem.weight\" or \"layer4.2.conv3.weight\"; use one of them"
+        "it is neither EfficientNet-Lite0 nor ResNet-50 (with the names of torchvision), the networks that can be used; choose a file of one of them"
     )]
     Unknown,
     /// A tensor is missing.
-    #[error("tensor \"{name}\" is missing; get a complete file")]
+    #[error("its weights \"{name}\" are missing; get a complete file")]
     Missing {
         /// Name of the tensor.
         name: String,
     },
     /// A tensor has the wrong shape.
-    #[error("tensor \"{name}\" has the shape {found:?}, needs {expected:?}; use a file of this network")]
+    #[error("its weights \"{name}\" have the shape {found:?} instead of {expected:?}; get the original file")]
     Shape {
         /// Name of the tensor.
         name: String,
@@ -49,7 +49,7 @@ pub enum BackboneError {
         expected: Vec<usize>,
     },
     /// A tensor is not finite, or has an unsupported type.
-    #[error("tensor \"{name}\" has values that are not finite, or not floats of 16 or 32 bits")]
+    #[error("its weights \"{name}\" are not finite, or not floats of 16 or 32 bits; get the original file")]
     Numbers {
         /// Name of the tensor.
         name: String,
@@ -57,6 +57,13 @@ pub enum BackboneError {
     /// A tensor operation failed.
     #[error("the network could not be evaluated: {0}")]
     Tensor(#[from] candle_core::Error),
+}
+
+/// The reader's words are not a cause to show: they describe bytes of the format.
+impl From<safetensors::SafeTensorError> for BackboneError {
+    fn from(error: safetensors::SafeTensorError) -> Self {
+        Self::Tensors(error)
+    }
 }
 
 /// Tensors by name, each with its shape.

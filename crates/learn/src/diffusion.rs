@@ -152,14 +152,23 @@ impl Diffusion {
         let scheduler = scheduler::Schedule::read(&files)?;
         let weights = |part: Part, files: &mut Files| -> Result<VarBuilder<'static>, DiffusionError> {
             let bytes = files.take(part)?;
-            let damaged =
-                |error: candle_core::Error| DiffusionError::Damaged { part, reason: first_line(&error) };
+            // The reader's words describe bytes of the format.
+            let damaged = |_: candle_core::Error| {
+                let reason = "it is not a safetensors file, or it is damaged".to_owned();
+                DiffusionError::Damaged { part, reason }
+            };
             let tensors: HashMap<String, Tensor> =
                 candle_core::safetensors::load_buffer(&bytes, &device).map_err(damaged)?;
             Ok(VarBuilder::from_tensors(tensors, DType::F32, &device))
         };
         let damaged = |part: Part| {
-            move |error: candle_core::Error| DiffusionError::Damaged { part, reason: first_line(&error) }
+            move |error: candle_core::Error| DiffusionError::Damaged {
+                part,
+                reason: format!(
+                    "its weights do not fit the configuration of the model ({})",
+                    first_line(&error)
+                ),
+            }
         };
         let text =
             TextEncoder::new(&weights(Part::Text, &mut files)?, &text_sizes).map_err(damaged(Part::Text))?;

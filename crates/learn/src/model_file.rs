@@ -21,14 +21,14 @@ const VERSION: u32 = 1;
 #[non_exhaustive]
 pub enum ModelFileError {
     /// The file is damaged or not safetensors.
-    #[error("it is not a safetensors file, or damaged: {0}; get the file again")]
-    Tensors(#[from] safetensors::SafeTensorError),
+    #[error("it is not a safetensors file, or it is damaged; choose another file, or get this one again")]
+    Tensors(safetensors::SafeTensorError),
     /// The file has no Shagreen header.
     #[error("it was not written by Shagreen; train a model with `shagreen train`")]
     Foreign,
     /// The header is invalid.
-    #[error("its header is damaged: {0}; get the file again")]
-    Header(#[from] serde_json::Error),
+    #[error("its description of the model is damaged; get the file again")]
+    Header(serde_json::Error),
     /// The version is newer than this program.
     #[error("it has version {version}, this program reads up to {VERSION}; use a newer version of Shagreen")]
     Version {
@@ -47,14 +47,33 @@ pub enum ModelFileError {
     #[error("its weights were changed or cut since it was written; get the file again")]
     Hash,
     /// A weight is not finite.
-    #[error("its tensor \"{name}\" is not finite; train again with another seed, in another folder")]
+    #[error("its weights \"{name}\" are not finite; train again with another seed, in another folder")]
     NotFinite {
         /// Name of the tensor.
         name: String,
     },
     /// The tensors do not match the header.
-    #[error("its tensors do not fit: {0}")]
-    Shape(#[from] candle_core::Error),
+    #[error("its weights do not fit the model that it describes; get the file again, or train a new model")]
+    Shape(candle_core::Error),
+}
+
+/// The readers' words are not causes to show: they describe bytes and types of the format.
+impl From<safetensors::SafeTensorError> for ModelFileError {
+    fn from(error: safetensors::SafeTensorError) -> Self {
+        Self::Tensors(error)
+    }
+}
+
+impl From<serde_json::Error> for ModelFileError {
+    fn from(error: serde_json::Error) -> Self {
+        Self::Header(error)
+    }
+}
+
+impl From<candle_core::Error> for ModelFileError {
+    fn from(error: candle_core::Error) -> Self {
+        Self::Shape(error)
+    }
 }
 
 #[derive(Serialize, Deserialize)]

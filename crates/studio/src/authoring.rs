@@ -87,14 +87,53 @@ fn plane_of(id: &str, model: &TextureModel, rate: Hertz, reporter: &dyn Reporter
 
 #[cfg(test)]
 mod tests {
-    use shagreen_core::space::SpacePoint;
-    use shagreen_core::space::authoring::{Blending, Outside, Voice};
+    use std::sync::Arc;
+
+    use shagreen_core::space::authoring::{Authored, Blending, Outside, Voice};
+    use shagreen_core::space::{LabelSource, SpacePoint};
     use shagreen_core::texture::TextureModel;
     use shagreen_core::texture::blend::Mode;
     use shagreen_formats::built_in::BuiltIn;
+    use shagreen_formats::library::{Place, TextureEntry};
+    use shagreen_formats::project::{AuthoredTexture, BlendChoice, Project};
 
     use super::authoring;
+    use crate::felt::join_felt;
+    use crate::project::{new_project, textures_of};
     use crate::report::Warnings;
+
+    /// The first authored texture of a project, in each mode.
+    fn first_of(project: &Project) -> [Authored; 5] {
+        let list = textures_of(project).unwrap();
+        let AuthoredTexture { at, blend, .. } = &*project.authored[0];
+        let used = project.with_places_of(&list, |id| blend.locked.contains(id));
+        Mode::ALL.map(|mode| {
+            let blending = BlendChoice { mode, ..blend.clone() }.blending(|id| list.index_of(id));
+            authoring(&used, mode, &Warnings::default()).unwrap().author(*at, &blending).unwrap()
+        })
+    }
+
+    /// To the bit, in every mode; not if the texture is used in the whole space.
+    #[test]
+    fn a_texture_generated_for_one_authored_texture_changes_no_other() {
+        let library = BuiltIn::Starter.read().unwrap();
+        let generated = |id: &str, rs: f64, hs: f64| {
+            let place = Some(Place::new(SpacePoint::new(rs, hs).unwrap(), LabelSource::Estimated));
+            Arc::new(TextureEntry { id: id.to_owned(), place, ..library.textures[3].clone() })
+        };
+        let mut project = new_project();
+        Arc::make_mut(&mut project.authored[0]).at = SpacePoint::new(42.0, 58.0).unwrap();
+        let without = first_of(&project);
+        join_felt(&mut project, 1, generated("first", 41.5, 58.3), None);
+        let before = first_of(&project);
+        assert!(before.iter().zip(&without).all(|(before, without)| before != without), "its own counts");
+        project.authored.push(Arc::new(AuthoredTexture::new(2, "Second")));
+        join_felt(&mut project, 2, generated("second", 42.2, 57.9), None);
+        assert_eq!(first_of(&project), before);
+        assert!(project.own.remove("second"));
+        let shared = first_of(&project);
+        assert!(shared.iter().zip(&before).all(|(shared, before)| shared != before));
+    }
 
     /// Blends are not judged when they are made; a model that is read from a file is.
     #[test]

@@ -3,6 +3,7 @@
 //! A new format of texture models is a file below `export/`, a line in [`FORMATS`] and a row in
 //! `docs/guide/files-and-formats.md`. [`WAV`] stands apart, because a signal needs a stroke too.
 
+mod batch;
 mod hatt;
 mod wav;
 
@@ -15,7 +16,8 @@ use shagreen_formats::library::{Library, Provenance, TextureEntry};
 use crate::replace::refuse_foreign;
 use crate::report::Reporter;
 
-pub use self::wav::{Rendered, WAV, lost_in_wav};
+pub use self::batch::{Batch, ExistingFiles, all_lost, export_all, paths_in, write_models};
+pub use self::wav::{Rendered, WAV, lost_in_wav, lost_of_tap};
 
 /// What a list of formats shows about one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,8 +116,7 @@ pub fn export(
     (out, created_by): (&Path, &str),
     reporter: &dyn Reporter,
 ) -> anyhow::Result<ExportOutcome> {
-    let restricted = (texture.provenance == Provenance::Restricted).then_some(texture.name.as_str());
-    let warning = Provenance::warning(&restricted.into_iter().collect::<Vec<_>>());
+    let warning = restriction_of(texture);
     if let Some(warning) = &warning {
         reporter.warn(warning);
     }
@@ -131,6 +132,12 @@ pub fn export(
         license: library.license_of(texture).to_owned(),
         warnings: warning.into_iter().collect(),
     })
+}
+
+/// Returns the warning about a texture that must not be redistributed.
+fn restriction_of(texture: &TextureEntry) -> Option<String> {
+    let restricted = (texture.provenance == Provenance::Restricted).then_some(texture.name.as_str());
+    Provenance::warning(&restricted.into_iter().collect::<Vec<_>>())
 }
 
 #[cfg(test)]

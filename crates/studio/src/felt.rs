@@ -67,7 +67,7 @@ pub fn felt_entry(
     TextureEntry {
         origin: FELT_ORIGIN.to_owned(),
         description: begin_of(description.trim_end().to_owned(), MAX_NOTES),
-        place: at.map(|at| Place { at, source: LabelSource::Estimated }),
+        place: at.map(|at| Place::new(at, LabelSource::Estimated)),
         picture: Some(picture),
         ..TextureEntry::new(id, name, model)
     }
@@ -89,8 +89,9 @@ pub fn replaceable_felt(project: &Project, key: u32, earlier: &Arc<TextureEntry>
 }
 
 /// Adds a simulated texture to a project, for the authored texture with this key, in place of an earlier one if
-/// [`replaceable_felt`] allows it. It is pinned, so that the field passes through it; a pin has no effect on a texture without
-/// a position. If the authored texture is selected, the simulated one is rendered alone until the point moves.
+/// [`replaceable_felt`] allows it. It belongs to the authored texture ([`Project::own`]), so that no other one changes. It is
+/// pinned, so that the field passes through it; a pin has no effect on a texture without a position. If the authored texture
+/// is selected, the simulated one is rendered alone until the point moves.
 pub fn join_felt(
     project: &mut Project,
     key: u32,
@@ -103,8 +104,10 @@ pub fn join_felt(
     let locked = &mut Arc::make_mut(&mut project.authored[index]).blend.locked;
     if let Some(id) = &replaced_id {
         locked.remove(id);
+        project.own.remove(id);
     }
     locked.insert(entry.id.clone());
+    project.own.insert(entry.id.clone());
     if index == project.selected || (replaced_id.is_some() && project.solo == replaced_id) {
         project.solo = Some(entry.id.clone());
     }

@@ -18,12 +18,13 @@ macro_rules! page {
 }
 
 /// All pages, the table of contents first.
-pub static PAGES: [GuidePage; 37] = [
+pub static PAGES: [GuidePage; 41] = [
     page!("index"),
     page!("first-steps"),
     page!("terms"),
     page!("troubleshooting"),
     page!("author"),
+    page!("window"),
     page!("touch"),
     page!("shape-a-texture"),
     page!("interpolation-modes"),
@@ -35,9 +36,11 @@ pub static PAGES: [GuidePage; 37] = [
     page!("projects"),
     page!("find-textures"),
     page!("import-recordings"),
+    page!("directional-recordings"),
     page!("make-materials"),
     page!("hatt-models"),
     page!("build-a-space"),
+    page!("validate-a-space"),
     page!("judgment-tables"),
     page!("prompts-and-photos"),
     page!("predict-attributes"),
@@ -52,6 +55,7 @@ pub static PAGES: [GuidePage; 37] = [
     page!("quality"),
     page!("spatial-spectrograms"),
     page!("reliefs"),
+    page!("height-maps"),
     page!("render-and-play"),
     page!("evaluate"),
     page!("command-line"),

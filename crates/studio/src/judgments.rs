@@ -8,6 +8,7 @@ use shagreen_core::people::sorting::Sort;
 use shagreen_core::space::LabelSource;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::Library;
+use shagreen_formats::places_csv::Scale;
 use shagreen_formats::ratings_csv::{read_ratings, read_ratings_csv, read_relevance_csv};
 use shagreen_formats::simulated_rater_labels::{SimulatedRaterLabels, panel_labels};
 use shagreen_formats::sorting_csv::read_sorting_csv;
@@ -78,6 +79,21 @@ pub fn kind_of(name: &str, bytes: &[u8]) -> JudgmentKind {
     }
 }
 
+/// Converts a rating from its scale to 0..100; a missing rating stays missing.
+///
+/// # Errors
+/// The rating is not on the scale, in one sentence.
+pub fn rescaled(rating: Rating, scale: Scale) -> Result<Rating, String> {
+    let Some(value) = rating.value else { return Ok(rating) };
+    if !scale.contains(value) {
+        let Rating { participant, texture, pair, .. } = rating;
+        return Err(format!(
+            "{participant} rated {texture} {value} on {pair}, which is not on the stated scale; correct the rating or the scale"
+        ));
+    }
+    Ok(Rating { value: Some(scale.to_space(value)), ..rating })
+}
+
 /// The source of judgments: simulated as soon as one participant is.
 pub fn source_of<P: AsRef<str>>(mut participants: impl Iterator<Item = P>) -> LabelSource {
     if participants.any(|name| is_simulated(name.as_ref())) {
@@ -104,9 +120,11 @@ pub fn simulate(library: &Library, seed: u64) -> Result<SimulatedJudgments, Stri
 
 #[cfg(test)]
 mod tests {
-    use super::{JudgmentKind, kind_of, simulate, source_of};
+    use super::{JudgmentKind, kind_of, rescaled, simulate, source_of};
+    use shagreen_core::people::ratings::Rating;
     use shagreen_core::space::LabelSource;
     use shagreen_formats::library::Library;
+    use shagreen_formats::places_csv::Scale;
     use shagreen_formats::starter::starter_library;
 
     #[test]
@@ -140,6 +158,23 @@ mod tests {
         check("votes.csv", "participant,rough,warm\np,1,0\n", JudgmentKind::Votes);
         check("ratings.csv", "participant,texture\np,cork\n", JudgmentKind::Ratings);
         check("a.csv", "nothing of it\n", JudgmentKind::Sorting);
+    }
+
+    #[test]
+    fn ratings_are_converted_from_their_scale() {
+        let rating = |value: Option<f64>| Rating {
+            participant: "p1".to_owned(),
+            texture: "cork".to_owned(),
+            pair: "rough-smooth".parse().unwrap(),
+            value,
+        };
+        let scale = Scale::new(1.0, 7.0).unwrap();
+        let value = |of: Option<f64>| rescaled(rating(of), scale).map(|rating| rating.value);
+        assert_eq!(
+            [value(Some(1.0)), value(Some(4.0)), value(None)],
+            [Ok(Some(0.0)), Ok(Some(50.0)), Ok(None)]
+        );
+        assert!(value(Some(8.0)).is_err_and(|reason| reason.contains("p1 rated cork 8")));
     }
 
     #[test]

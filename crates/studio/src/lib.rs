@@ -12,6 +12,7 @@
     allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may panic on an unexpected result")
 )]
 
+pub mod about;
 pub mod authoring;
 pub mod driven_channels;
 pub mod export;
@@ -23,6 +24,7 @@ pub mod guide;
 pub mod height_map;
 pub mod import;
 pub mod judgments;
+pub mod levels;
 pub mod library;
 pub mod library_names;
 pub mod models;

@@ -15,6 +15,9 @@ use shagreen_learn::picture_predictor::PicturePredictor;
 
 use crate::file::{file_name, reason_of};
 
+/// License of EfficientNet-Lite0, as an SPDX expression.
+pub const EFFICIENTNET_LITE0_LICENSE: &str = "Apache-2.0";
+
 /// Folder of the networks, and of the records of networks elsewhere; it need not exist yet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ModelFolder {

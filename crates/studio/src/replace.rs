@@ -8,6 +8,8 @@ use shagreen_formats::library::{Library, TextureEntry, read_library};
 use shagreen_formats::text_limits::begin_of;
 use shagreen_formats::{library, wav};
 
+use crate::file::shown_name;
+
 /// Longest name of a texture in an error, in characters.
 const NAME_IN_ERROR: usize = 60;
 
@@ -28,6 +30,22 @@ pub fn refuse_inputs(outputs: &[&Path], inputs: &[Option<&Path>]) -> anyhow::Res
         }
     }
     Ok(())
+}
+
+/// Returns an error if a signal at `out`, or the sidecar beside it, is one of the inputs.
+///
+/// # Errors
+/// As [`refuse_inputs`]; the message says which file is the sidecar.
+pub fn refuse_signal_over_inputs(out: &Path, inputs: &[Option<&Path>]) -> anyhow::Result<()> {
+    refuse_inputs(&[out], inputs)?;
+    let beside = wav::sidecar_path(out);
+    refuse_inputs(&[&beside], inputs).map_err(|_| {
+        anyhow::anyhow!(
+            "the signal {} gets a sidecar file of the same name with .json, which would overwrite an input; choose another name for the signal: {}",
+            shown_name(out),
+            beside.display()
+        )
+    })
 }
 
 /// Returns an error if the output would replace a file of another kind: files of this program may be replaced, others

@@ -152,7 +152,8 @@ impl Sound {
         highest_rate(self.models(library)).context("there is nothing to render; choose another point")
     }
 
-    /// Notes that a motion exceeds the speeds or forces at which the voices were measured: they are clamped there.
+    /// Notes that a motion exceeds the speeds or forces at which the voices were measured, where they are clamped, or that
+    /// most of it lies below them, where they fade.
     pub fn note_limits(&self, library: &Library, trace: &TraceV1, reporter: &dyn Reporter) {
         let highest_speeds = self.models(library).map(|m| m.speed_max().mm_per_s());
         let known_mm_per_s = highest_speeds.fold(f64::INFINITY, f64::min);
@@ -164,6 +165,22 @@ impl Sound {
                  rendered as at these values"
             ));
         }
+        let [lowest_mm_per_s, lowest_n] = self.lowest(library);
+        if is_mostly_below(trace, lowest_mm_per_s, lowest_n) {
+            reporter.note(&format!(
+                "the texture was measured from {lowest_mm_per_s:.0} mm/s and {lowest_n:.2} N; slower or lighter strokes are \
+                 below the measured range and fade to silence"
+            ));
+        }
+    }
+
+    /// Returns the lowest speed in mm/s and the lowest force in N at which all voices were measured.
+    fn lowest(&self, library: &Library) -> [f64; 2] {
+        let of_model = |model: &TextureModel| {
+            let measured = model.contacts().filter(|c| c.speed.0 > 0.0 && c.force.0 > 0.0);
+            measured.fold([f64::INFINITY; 2], |[v, f], c| [v.min(c.speed.mm_per_s()), f.min(c.force.0)])
+        };
+        self.models(library).map(of_model).fold([0.0; 2], |[v, f], [of_v, of_f]| [v.max(of_v), f.max(of_f)])
     }
 
     /// Returns the contributing textures and their weights as JSON.
@@ -196,6 +213,16 @@ impl Sound {
     }
 }
 
+/// Returns whether more than half of the moving contact in a motion is slower or lighter than these limits by more than a
+/// rounding error.
+fn is_mostly_below(trace: &TraceV1, lowest_mm_per_s: f64, lowest_n: f64) -> bool {
+    let pairs = trace.speed_mm_per_s.iter().zip(&trace.force_n);
+    let moving: Vec<(f64, f64)> =
+        pairs.map(|(v, f)| (*v, *f)).filter(|(v, f)| *v > 0.0 && *f > 0.0).collect();
+    let is_below = |(v, f): &&(f64, f64)| *v < 0.999 * lowest_mm_per_s || *f < 0.999 * lowest_n;
+    2 * moving.iter().filter(is_below).count() > moving.len()
+}
+
 /// Warns of a point outside the convex hull of the textures.
 fn warn_outside_hull(point: SpacePoint, authored: &Authored, reporter: &dyn Reporter) {
     let at = authored.location.at;
@@ -211,5 +238,67 @@ fn warn_outside_hull(point: SpacePoint, authored: &Authored, reporter: &dyn Repo
             "{point} lies too far outside the convex hull of the textures; {at}, the farthest point that can be computed, is \
              extrapolated"
         )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::{Sound, is_mostly_below};
+    use crate::report::Reporter;
+    use crate::trace::steady_trace;
+    use shagreen_core::texture::blend::Mode;
+    use shagreen_core::texture::shape::Shape;
+    use shagreen_core::units::Contact;
+    use shagreen_formats::starter::starter_library;
+    use shagreen_formats::wav::TraceV1;
+
+    #[derive(Default)]
+    struct Notes(RefCell<Vec<String>>);
+
+    impl Reporter for Notes {
+        fn warn(&self, message: &str) {
+            self.note(message);
+        }
+
+        fn note(&self, message: &str) {
+            self.0.borrow_mut().push(message.to_owned());
+        }
+    }
+
+    /// The starter textures are measured from 30 mm/s and 0.15 N.
+    #[test]
+    fn strokes_outside_the_measured_range_are_noted() {
+        let library = starter_library().unwrap();
+        let cork = Sound::of_texture(&library, "cork", Mode::Field, &Shape::default()).unwrap();
+        for (mm_per_s, force_n, words) in [
+            (100.0, 1.0, None),
+            (30.0, 0.15, None),
+            (20.0, 1.0, Some("measured from 30 mm/s and 0.15 N")),
+            (100.0, 0.1, Some("fade to silence")),
+            (9000.0, 1.0, Some("measured up to")),
+            (0.0, 1.0, None),
+        ] {
+            let notes = Notes::default();
+            let trace = steady_trace(Contact::from_mm_per_s_and_n(mm_per_s, force_n), 1.0);
+            cork.note_limits(&library, &trace, &notes);
+            let said = notes.0.into_inner();
+            assert_eq!(said.len(), usize::from(words.is_some()), "{said:?}");
+            assert!(words.is_none_or(|words| said[0].contains(words)), "{said:?}");
+        }
+    }
+
+    #[test]
+    fn a_stroke_that_starts_at_rest_is_not_below() {
+        let trace = |speed_mm_per_s: Vec<f64>| TraceV1 {
+            force_n: vec![1.0; speed_mm_per_s.len()],
+            time_s: (0..speed_mm_per_s.len()).map(|i| i as f64).collect(),
+            speed_mm_per_s,
+            ..TraceV1::default()
+        };
+        assert!(!is_mostly_below(&trace(vec![0.0, 10.0, 100.0, 100.0, 10.0, 0.0]), 50.0, 0.5));
+        assert!(is_mostly_below(&trace(vec![0.0, 10.0, 20.0, 100.0]), 50.0, 0.5));
+        assert!(!is_mostly_below(&trace(Vec::new()), 50.0, 0.5));
     }
 }

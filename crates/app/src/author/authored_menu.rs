@@ -1,17 +1,34 @@
 //! Context menu of an authored texture, in the list and on the canvas.
 
-use egui::{Response, Ui};
+use egui::{Key, Modifiers, Response, Ui};
 use shagreen_formats::project::AuthoredTexture;
-use shagreen_studio::export::WAV;
 
 use crate::author::context_menu::{context_menu, menu_entry};
 use crate::author::new_texture::copy_of;
+use crate::command::Command;
 use crate::command::clipboard::ClipboardCommand;
-use crate::command::{Command, FileCommand};
+use crate::command::relief::{ReliefCommand, ReliefOf};
 use crate::panel::Panel;
 use crate::state::compare::{CompareCommand, Side};
 use crate::state::edit::Edit;
-use crate::strings::{authored as words, clipboard, compare, export};
+use crate::strings::{authored as words, clipboard, compare, export, relief};
+
+/// Command of the keys F2 and Delete on the row or the point of an authored texture with the keyboard focus.
+pub(crate) fn authored_keys(
+    response: &Response,
+    panel: &Panel<'_>,
+    texture: &AuthoredTexture,
+) -> Option<Command> {
+    if !response.has_focus() {
+        return None;
+    }
+    let is_pressed = |key| response.ctx.input_mut(|i| i.consume_key(Modifiers::NONE, key));
+    if is_pressed(Key::F2) {
+        return Some(Command::RenameAuthored(texture.key));
+    }
+    let can_go = panel.project.authored.len() > 1;
+    (can_go && is_pressed(Key::Delete)).then(|| Command::Edit(Edit::Remove(texture.key)))
+}
 
 /// Draws the menu while it is open; returns the requested command.
 pub(crate) fn authored_menu(
@@ -35,6 +52,8 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture) -> Opti
         Command::Edit(Edit::Author(copy_of(panel, texture)))
     };
     asked = menu_entry(ui, words::DUPLICATE, words::DUPLICATE_HELP, duplicate).or(asked);
+    let begin = Command::Relief(ReliefCommand::Begin(Some(ReliefOf::Authored(key)), None));
+    asked = menu_entry(ui, relief::MENU, relief::MENU_HELP, begin).or(asked);
     ui.separator();
     let copy = Command::Clipboard(ClipboardCommand::Copy(Some(key)));
     asked = menu_entry(ui, clipboard::COPY, clipboard::COPY_HELP, copy).or(asked);
@@ -58,11 +77,6 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture) -> Opti
             asked = menu_entry(ui, &compare::compare_as(side.letter()), "", assign).or(asked.take());
         });
     }
-    // The export sheet writes what is audible.
-    if is_selected && panel.solo().is_none() && panel.compare.heard().is_none() {
-        ui.separator();
-        let to_export = Command::File(FileCommand::Export(WAV.id));
-        asked = menu_entry(ui, export::EXPORT, export::EXPORT_HELP, to_export).or(asked);
-    }
-    asked
+    ui.separator();
+    menu_entry(ui, export::EXPORT, export::EXPORT_HELP, Command::ExportAuthored(key)).or(asked)
 }

@@ -4,7 +4,7 @@ use egui::{Button, Id, Label, Rect, RichText, Role, ScrollArea, Sense, Ui, Widge
 use shagreen_core::space::SpacePoint;
 use shagreen_formats::project::AuthoredTexture;
 
-use crate::author::authored_menu::authored_menu;
+use crate::author::authored_menu::{authored_keys, authored_menu};
 use crate::author::compare_ui::compare_ui;
 use crate::author::context_menu::context_menu;
 use crate::author::new_texture::{fresh, of_snapshot};
@@ -101,6 +101,7 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
     if response.clicked() {
         commands.push(Command::Edit(Edit::Select(texture.key)));
     }
+    commands.extend(authored_keys(&response, panel, texture));
     commands.extend(authored_menu(&response, panel, texture));
     let mut help =
         format!("{}\n{}", texture.name, strings::place_in_words(texture.at, panel.session.poles()));

@@ -3,6 +3,7 @@
 use egui::{ComboBox, Ui};
 
 use crate::command::Command;
+use crate::look::list::ShowList as _;
 use crate::panel::Panel;
 use crate::state::edit::Edit;
 use crate::strings;
@@ -25,7 +26,7 @@ pub(crate) fn axis_choice_ui(ui: &mut Ui, panel: &Panel<'_>, axis: usize) -> Opt
     let row = ui.max_rect();
     ui.add_space((row.center().x - 0.5 * WIDTH - ui.cursor().left()).max(0.0));
     let combo = ComboBox::from_id_salt(name).width(WIDTH).truncate().selected_text(shown);
-    let combo = combo.show_ui(ui, |ui| {
+    let combo = combo.show_list(ui, |ui| {
         if ui.selectable_label(current.is_none(), strings::AXES_AS_PLACED).clicked() {
             chosen = Some(None);
         }

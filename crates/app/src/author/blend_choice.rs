@@ -5,6 +5,7 @@ use shagreen_core::space::authoring::{Outside, Weights};
 use shagreen_core::texture::blend::Mode;
 
 use crate::command::Command;
+use crate::look::list::ShowList as _;
 use crate::look::theme::tokens;
 use crate::panel::Panel;
 use crate::state::edit::Edit;
@@ -57,7 +58,7 @@ fn mode_ui(ui: &mut Ui, mode: Mode) -> Option<Edit> {
         let width = ui.available_width();
         let combo =
             ComboBox::from_id_salt("blend mode").width(width).truncate().selected_text(mode_entry(mode));
-        let shown = combo.show_ui(ui, |ui| {
+        let shown = combo.show_list(ui, |ui| {
             for each in Mode::ALL {
                 let entry = ui.selectable_label(mode == each, mode_entry(each));
                 if entry.on_hover_text(help(each)[1]).clicked() {

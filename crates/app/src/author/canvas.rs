@@ -2,6 +2,7 @@
 
 mod canvas_menu;
 mod drop_ui;
+mod estimates_ui;
 mod map;
 mod path_tool;
 mod points_ui;
@@ -12,8 +13,8 @@ mod tool_bar;
 mod view;
 
 use egui::{
-    Align2, FontId, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo,
-    pos2, vec2,
+    Align2, Context, FontId, PointerButton, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 use shagreen_core::space::authoring::Weights;
 use shagreen_core::space::{LabelSource, SpacePoint};
@@ -21,6 +22,7 @@ use shagreen_core::texture::blend::Mode;
 
 use self::canvas_menu::canvas_menu;
 use self::drop_ui::drop_ui;
+use self::estimates_ui::{ellipse_ui, site_ellipses_ui};
 pub use self::map::ShownMap;
 use self::map::map_ui;
 pub use self::path_tool::PathTool;
@@ -35,6 +37,7 @@ use crate::author::prompt::PositionEstimate;
 use crate::command::Command;
 use crate::look::axes::{Axes, View};
 use crate::look::drag::dragged_to;
+use crate::look::notice::show_notice;
 use crate::look::theme::{Tokens, tokens};
 use crate::panel::Panel;
 use crate::state::edit::Edit;
@@ -48,8 +51,8 @@ const SITE_SHARE: f32 = 0.03;
 const MAX_SITE_RADIUS: f32 = 28.0;
 /// Size of the authored point while it is not pointed at, in points.
 const POINT_SIZE: Vec2 = vec2(22.0, 22.0);
-/// Number of vertices of an ellipse.
-const ELLIPSE_POINTS: usize = 96;
+/// Size of an authored point that is not selected, in points.
+const OTHER_POINT: Vec2 = vec2(17.0, 17.0);
 const BIG_STEP: f64 = 5.0;
 
 /// Widget id of an authored point, by its key. It does not depend on the selection, so that a drag continues when the
@@ -67,18 +70,26 @@ pub struct CanvasState {
     pub view: View,
     /// Texture under the pointer in the last frame.
     pub(crate) pointed: Option<usize>,
-    /// Height of the controls above the canvas in the last frame, in points.
-    bar_height: f32,
+    /// Area of the controls above the canvas in the last frame.
+    bar: Option<Rect>,
+    /// Whether the canvas is too narrow to state the source of the positions beside its controls.
+    pub(crate) is_narrow: bool,
+    /// Whether the last press was beside the view, where it moves nothing.
+    is_pressed_beside: bool,
 }
 
 /// Canvas width below which the path controls take a second row, in points. That row is reserved before the first path
 /// point exists, so that the canvas does not move while points are placed.
 const WRAPPING_WIDTH: f32 = 900.0;
+/// Canvas width below which the controls need the width of all rows, in points.
+const NARROW_WIDTH: f32 = 520.0;
 /// Height of one row of controls, in points.
 const BAR_ROW: f32 = 25.0;
 
 /// Distance beyond the view within which items are still drawn, in points.
 const AROUND_VIEW: f32 = 30.0;
+/// Height of the strip below the items, with the words of the x axis and the message about the audible texture, in points.
+const FOOT: f32 = 26.0;
 
 /// Draws the canvas; returns the requested commands.
 pub fn canvas_ui(
@@ -94,80 +105,79 @@ pub fn canvas_ui(
     background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
     // Further rows of controls move the canvas down, so that they cover no texture.
     let may_wrap = state.tool.is_on && outer.width() < WRAPPING_WIDTH;
-    let bar_height = if may_wrap { state.bar_height.max(2.0 * BAR_ROW) } else { state.bar_height };
+    let bar_height = state.bar.as_ref().map_or(0.0, Rect::height);
+    let bar_height = if may_wrap { bar_height.max(2.0 * BAR_ROW) } else { bar_height };
     let top = 40.0 + (bar_height - BAR_ROW).max(0.0);
-    let rect = Rect::from_min_max(outer.min + vec2(36.0, top), outer.max - vec2(36.0, 48.0));
+    let rect = Rect::from_min_max(outer.min + vec2(36.0, top), outer.max - vec2(36.0, FOOT + AROUND_VIEW));
     state.view = follow_view(ui, Axes { rect, view: state.view }, &background);
     let axes = Axes { rect, view: state.view };
+    if let Some(pressed_at) = ui.input(|i| i.pointer.press_origin()) {
+        state.is_pressed_beside = !rect.expand(SITE_RADIUS).contains(pressed_at);
+    }
     let tool = &mut state.tool;
     ui.painter().rect_filled(outer, f32::from(crate::look::theme::RADIUS), t.background);
     if let Some(map) = map {
         map_ui(ui, axes, map);
     }
     let mut words = grid(ui, axes, outer, panel.session.poles(), t);
-    let source = source_ui(ui, pos2(axes.rect.right(), outer.top() + 5.0), panel, t);
-    words.push(source);
+    state.is_narrow = outer.width() < NARROW_WIDTH;
+    let corner = pos2(axes.rect.right(), outer.top() + 5.0);
+    let source = (!state.is_narrow).then(|| source_ui(ui, corner, panel, t));
+    words.extend(source);
+    // Names of textures keep clear of the controls, too.
+    words.extend(state.bar);
     let seen = ui.clip_rect();
     // Items beyond the view must not overlap the axis labels.
     ui.set_clip_rect(rect.expand(AROUND_VIEW).intersect(seen));
     triangles(ui, axes, panel, t);
     path_line(ui, axes, panel, t);
+    site_ellipses_ui(ui, axes, panel, t);
     if let Some(guess) = guess {
-        ellipse_ui(ui, axes, guess, t);
+        ellipse_ui(ui, axes, guess.axes, t.accent);
     }
     // A click beside an open menu only closes it.
     let is_click = background.clicked() && !had_open_menu(ui.ctx());
     let clicked_at = background.interact_pointer_pos().filter(|_| is_click);
     if tool.is_on {
         commands.extend(tool.follow(ui, axes, panel, &background));
-    } else if let Some(pos) = dragged_by_primary(ui, &background).or(clicked_at) {
-        commands.push(move_to(axes.space_from_ui(pos)));
+    } else if let Some(pos) =
+        dragged_by_primary(ui, &background).or(clicked_at).filter(|_| !state.is_pressed_beside)
+    {
+        let to = axes.space_from_ui(pos);
+        if clicked_at.is_some() && to != panel.project.texture().at {
+            say_moved(ui.ctx(), &panel.project.texture().name);
+        }
+        commands.push(move_to(to));
     }
-    let (of_sites, pointed) = sites_ui(ui, axes, panel, tool, &words, map.is_some(), t);
-    commands.extend(of_sites);
-    state.pointed = pointed;
+    let sites = sites_ui(ui, axes, panel, tool, &words, map.is_some(), t);
+    commands.extend(sites.commands);
+    state.pointed = sites.pointed;
     if panel.session.space().sites().is_empty() {
         let font = FontId::proportional(15.0);
         let message =
             if panel.session.textures().is_empty() { strings::NO_TEXTURES } else { strings::NO_PLACES };
         ui.painter().text(axes.rect.center(), Align2::CENTER_CENTER, message, font, t.warning);
     }
-    commands.extend(authored_points_ui(ui, axes, panel, tool, t));
+    commands.extend(authored_points_ui(ui, axes, panel, tool, &sites.covered, t));
     commands.extend(path_points(ui, axes, panel, tool, t));
     path_marker(ui, axes, panel, t);
     ui.set_clip_rect(seen);
-    let width = source.left() - outer.left() - 44.0;
+    let width = source.map_or(outer.right(), |source| source.left()) - outer.left() - 44.0;
     let bar = tool_bar(ui, axes, outer, width, panel, tool, map, t);
     commands.extend(bar.commands);
     state.view = bar.view.unwrap_or(state.view);
-    state.bar_height = bar.height;
+    state.bar = Some(bar.area);
     commands.extend(drop_ui(ui, axes, outer, panel, t));
     commands.extend(canvas_menu(&background, axes, panel, map));
     let asks_for_path = state.tool.is_on && panel.project.texture().path.is_none();
-    foot_ui(ui, axes, panel, asks_for_path, t);
+    commands.extend(foot_ui(ui, outer, &words, panel, asks_for_path, t));
     commands
 }
 
-/// Draws an ellipse around the position estimated from a prompt or photo: one standard deviation along each axis.
-fn ellipse_ui(ui: &Ui, axes: Axes, guess: &PositionEstimate, t: &Tokens) {
-    let [across, up] = guess.axes;
-    let at = |angle: f64| {
-        axes.ui_from_space(SpacePoint {
-            rough_smooth: across.mean + across.deviation * angle.cos(),
-            hard_soft: up.mean + up.deviation * angle.sin(),
-        })
-    };
-    let n = ELLIPSE_POINTS;
-    let mut outline: Vec<Pos2> = (0..n).map(|i| at(std::f64::consts::TAU * i as f64 / n as f64)).collect();
-    let fill = t.accent.gamma_multiply(0.07);
-    ui.painter().add(Shape::convex_polygon(outline.clone(), fill, Stroke::NONE));
-    outline.extend(outline.first().copied());
-    ui.painter().extend(Shape::dashed_line(
-        &outline,
-        Stroke::new(1.4, t.accent.gamma_multiply(0.8)),
-        6.0,
-        4.0,
-    ));
+/// Says in the status bar that a click has moved a texture, and how to undo that.
+fn say_moved(ctx: &Context, name: &str) {
+    let keys = Command::Undo.shortcut_text(ctx);
+    show_notice(ctx, strings::moved_by_click(name, &keys));
 }
 
 /// Position to which the primary button drags the background. Other buttons move the view.
@@ -239,11 +249,12 @@ fn source_ui(ui: &Ui, corner: Pos2, panel: &Panel<'_>, t: &Tokens) -> Rect {
 }
 
 fn triangles(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
-    let space = panel.session.space();
+    let authoring = panel.session.authoring_of(panel.inspected());
+    let space = authoring.space();
     let at = |texture: usize| space.position(texture).map(|p| axes.ui_from_space(p));
     let painter = ui.painter();
     // The triangle is highlighted only in modes that interpolate its corners.
-    let blending = panel.session.blending(&panel.project.texture().blend);
+    let blending = panel.session.blending(&panel.inspected().blend);
     let is_of_corners = blending.mode != Mode::Field && blending.weights == Weights::Barycentric;
     let authored = panel.session.authored().filter(|_| is_of_corners);
     let corners: Vec<usize> =

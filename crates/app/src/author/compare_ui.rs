@@ -25,13 +25,15 @@ pub(crate) fn compare_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             let response = response.accessible_name(words::hear(side.letter()));
             let on = panel.project.authored.iter().find(|texture| compare.side_of(texture.key) == Some(side));
             let help = on.map_or(help.to_owned(), |texture| words::is_on(side.letter(), &texture.name));
-            if response.on_hover_text(help).clicked() {
+            let response = response.on_hover_text(&help).on_disabled_hover_text(&help);
+            if response.clicked() {
                 asked.push(CompareCommand::Hear(side));
             }
         }
         let mut is_blind = compare.is_blind();
         let blind = ui.add_enabled(compare.is_possible(), Checkbox::new(&mut is_blind, words::BLIND));
-        if blind.on_hover_text(words::BLIND_HELP).changed() {
+        let blind = blind.on_hover_text(words::BLIND_HELP).on_disabled_hover_text(words::NEEDS_TWO);
+        if blind.changed() {
             asked.push(CompareCommand::SetBlind(is_blind));
         }
     });

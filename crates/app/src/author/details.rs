@@ -12,10 +12,11 @@ use shagreen_formats::project::AuthoredTexture;
 
 use crate::author::new_texture::copy_of;
 use crate::command::Command;
+use crate::command::relief::{ReliefCommand, ReliefOf};
 use crate::look::theme::{GAP, tokens};
 use crate::panel::Panel;
 use crate::state::edit::Edit;
-use crate::strings::authored as words;
+use crate::strings::{authored as words, relief};
 
 /// Width of the menu, in points.
 const WIDTH: f32 = 230.0;
@@ -70,6 +71,11 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     }
     heading(ui, words::PICTURE);
     commands.extend(picture_ui(ui, texture));
+    if ui.button(relief::MENU).on_hover_text(relief::MENU_HELP).clicked() {
+        let of = Some(ReliefOf::Authored(texture.key));
+        commands.push(Command::Relief(ReliefCommand::Begin(of, None)));
+        ui.close();
+    }
     ui.add_space(GAP);
     ui.horizontal(|ui| {
         if ui.button(words::DUPLICATE).on_hover_text(words::DUPLICATE_HELP).clicked() {

@@ -16,6 +16,7 @@ use crate::author::texture_picture::picture_ui;
 use crate::command::Command;
 use crate::look::theme::{GAP, GROUP_GAP, RADIUS, tokens};
 use crate::panel::Panel;
+use crate::session::N_SHOWN_PARENTS;
 use crate::state::compare::{CompareCommand, Side};
 use crate::state::edit::Edit;
 use crate::strings::{self, compare as words};
@@ -24,6 +25,18 @@ use crate::strings::{self, compare as words};
 const SHARES_HEIGHT: f32 = 6.0;
 /// Height of the heading of the contributions, in points.
 const HEADING_HEIGHT: f32 = 18.0;
+/// Height of the card of a contributing texture, in points: three of them fit into a window of 1280 by 720.
+const CARD_HEIGHT: f32 = 36.0;
+/// Maximum number of cards, in a window with room for them.
+const MAX_CARDS: usize = 8;
+/// Distance between cards, in points.
+const CARD_GAP: f32 = 4.0;
+/// Margin of the panel on the right, in points.
+const PANEL_MARGIN: f32 = 8.0;
+/// Distance between the content and the scroll bar at its widest, in points.
+const BAR_GAP: f32 = 2.0;
+/// Distance of the picture from the edges of its card, in points.
+const PICTURE_MARGIN: f32 = 3.0;
 
 /// Widget id of the field with the name of the texture.
 pub(crate) fn name_field() -> egui::Id {
@@ -32,12 +45,24 @@ pub(crate) fn name_field() -> egui::Id {
 
 /// Draws the inspector; returns the requested commands.
 pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let height = ui.available_height();
+    // The scroll bar lies in the margin of the panel, or it would cover the buttons on the right.
+    let inside = ui.available_rect_before_wrap();
+    let outside = Rect::from_min_max(inside.min, inside.max + vec2(PANEL_MARGIN, 0.0));
+    let layout = egui::Layout::top_down(egui::Align::Min);
+    let mut wide = ui.new_child(egui::UiBuilder::new().max_rect(outside).layout(layout));
     let area = egui::ScrollArea::vertical().auto_shrink(false);
-    area.show(ui, |ui| content_ui(ui, panel)).inner
+    let shown = area.show(&mut wide, |ui| {
+        ui.set_max_width(outside.width() - ui.spacing().scroll.bar_width - BAR_GAP);
+        content_ui(ui, panel, height)
+    });
+    shown.inner
 }
 
-fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+/// Draws the content of an inspector of this height, in points.
+fn content_ui(ui: &mut Ui, panel: &Panel<'_>, height: f32) -> Vec<Command> {
     let mut commands = Vec::new();
+    let bottom = ui.cursor().top() + height;
     ui.add_space(GAP);
     if let Some(side) = panel.compare.heard() {
         commands.extend(compared_ui(ui, panel, side));
@@ -51,7 +76,8 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         commands.extend(asked);
     }
     ui.add_space(GROUP_GAP);
-    commands.extend(parents_ui(ui, panel));
+    let room = bottom - ui.cursor().top();
+    commands.extend(parents_ui(ui, panel, room));
     commands
 }
 
@@ -142,6 +168,8 @@ fn axis_slider(
         });
         choice
     });
+    // The labels belong to the slider.
+    ui.add_space(-ui.spacing().item_spacing.y);
     let width = ui.available_width();
     ui.spacing_mut().slider_width = width - 66.0;
     // Displayed with one decimal but not rounded to it: a slider that rounds would edit the project by itself.
@@ -151,27 +179,46 @@ fn axis_slider(
     (slider.changed(), choice.inner)
 }
 
-/// Draws the contributing textures with pictures and weights, and a summary of those without a card.
-fn parents_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+/// Draws the contributing textures with pictures and weights, and a summary of those without a card, in `room` points of
+/// height or more.
+fn parents_ui(ui: &mut Ui, panel: &Panel<'_>, room: f32) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
+    let heading = HEADING_HEIGHT + SHARES_HEIGHT + 2.0 * ui.spacing().item_spacing.y;
+    let parents = parents_with_cards(panel, room - heading);
     let row = vec2(ui.available_width(), HEADING_HEIGHT);
     ui.allocate_ui_with_layout(row, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.add(Label::new(RichText::new(strings::PARENTS).strong()).selectable(false))
             .on_hover_text(strings::PARENTS_HELP);
-        let Some(rest) = besides(panel) else { return };
+        let Some(rest) = besides(panel, parents.len()) else { return };
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             let text = RichText::new(&rest).small().color(t.text_weak);
             ui.add(Label::new(text).truncate().selectable(false)).on_hover_text(strings::PARENTS_HELP);
         });
     });
     shares_ui(ui, panel);
-    // A weight that would be displayed as 0.0 % gets no card.
-    let worthwhile = panel.session.shown_parents().iter().filter(|(_, weight)| weight.abs() >= 5e-4);
-    for (parent, color) in worthwhile.zip(t.parents) {
-        commands.extend(card(ui, panel, *parent, color));
-    }
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing.y = CARD_GAP;
+        for (rank, parent) in parents.into_iter().enumerate() {
+            let color = t.parents.get(rank).copied().unwrap_or(t.text_weak);
+            commands.extend(card(ui, panel, parent, color));
+        }
+    });
     commands
+}
+
+/// Library indices and weights of the contributing textures with cards: those with colors of their own, then as many others
+/// as fit into `room` points of height.
+fn parents_with_cards(panel: &Panel<'_>, room: f32) -> Vec<(usize, f64)> {
+    let parents = panel.session.authored().map_or(&[][..], |authored| &authored.parents);
+    let fitting = ((room + CARD_GAP) / (CARD_HEIGHT + CARD_GAP)).max(0.0) as usize;
+    // A weight that would be displayed as 0.0 % gets no card. In a field, distant textures contribute negatively.
+    let is_worthwhile = |(rank, (_, weight)): &(usize, &(usize, f64))| {
+        let size = if *rank < N_SHOWN_PARENTS { weight.abs() } else { *weight };
+        size >= 5e-4
+    };
+    let worthwhile = parents.iter().enumerate().filter(is_worthwhile).map(|(_, parent)| *parent);
+    worthwhile.take(fitting.clamp(N_SHOWN_PARENTS, MAX_CARDS)).collect()
 }
 
 /// Draws one bar of all contributing textures: those with cards in their colors, all others together in gray. A field
@@ -191,14 +238,15 @@ fn shares_ui(ui: &mut Ui, panel: &Panel<'_>) {
     }
 }
 
-/// Weight of the pinned texture, or else the number of the contributing textures without a card.
-fn besides(panel: &Panel<'_>) -> Option<String> {
+/// Weight of the pinned texture, or else the number of the contributing textures without one of the `n_cards` cards.
+fn besides(panel: &Panel<'_>, n_cards: usize) -> Option<String> {
     let authored = panel.session.authored()?;
     if let Some((texture, share)) = authored.lock.filter(|_| panel.solo().is_none()) {
         return Some(strings::locked_share(&panel.session.textures()[texture].name, 100.0 * share));
     }
-    let rest = authored.parents.get(panel.session.shown_parents().len()..).filter(|rest| !rest.is_empty())?;
-    Some(strings::more_parents(rest.len()))
+    let n_named = n_cards.max(panel.session.shown_parents().len());
+    let n_rest = authored.parents.len().saturating_sub(n_named);
+    (n_rest > 0).then(|| strings::more_parents(n_rest))
 }
 
 /// Card of a contributing texture. With the texture that can be edited, it has a solo button and, in the Field mode, a pin
@@ -211,11 +259,12 @@ fn card(
 ) -> Option<Command> {
     let t = tokens(ui.ctx());
     let entry = &panel.session.textures()[texture];
-    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), 50.0), Sense::hover());
+    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), CARD_HEIGHT), Sense::hover());
     let percent = 100.0 * weight;
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, strings::parent(&entry.name, percent)));
     ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
-    let picture = Rect::from_min_size(area.min + vec2(4.0, 4.0), vec2(42.0, 42.0));
+    let side = CARD_HEIGHT - 2.0 * PICTURE_MARGIN;
+    let picture = Rect::from_min_size(area.min + vec2(PICTURE_MARGIN, PICTURE_MARGIN), vec2(side, side));
     picture_ui(ui, panel, texture, picture);
     ui.painter().rect_stroke(
         picture,
@@ -227,7 +276,7 @@ fn card(
     let right = area.right() - 10.0;
     let font = egui::FontId::proportional(14.0);
     let number = ui.painter().text(
-        egui::pos2(right, area.top() + 9.0),
+        egui::pos2(right, area.top() + 4.0),
         egui::Align2::RIGHT_TOP,
         format!("{percent:.1} %"),
         font,
@@ -245,11 +294,11 @@ fn card(
     let end = solo.left() - 4.0;
     let mut name = ui.new_child(
         egui::UiBuilder::new()
-            .max_rect(Rect::from_min_max(egui::pos2(left, area.top() + 8.0), egui::pos2(end, area.bottom()))),
+            .max_rect(Rect::from_min_max(egui::pos2(left, area.top() + 3.0), egui::pos2(end, area.bottom()))),
     );
     name.add(Label::new(RichText::new(&entry.name).color(color)).truncate().selectable(false));
     let bar =
-        Rect::from_min_max(egui::pos2(left, area.bottom() - 16.0), egui::pos2(right, area.bottom() - 10.0));
+        Rect::from_min_max(egui::pos2(left, area.bottom() - 10.0), egui::pos2(right, area.bottom() - 5.0));
     ui.painter().rect_filled(bar, 3.0, t.control);
     let share = (weight as f32).clamp(0.0, 1.0);
     let filled = Rect::from_min_size(bar.min, vec2(bar.width() * share, bar.height()));

@@ -1,7 +1,7 @@
 //! Left column: the authored textures, and the texture library with search and filter.
 
 use egui::containers::menu::MenuButton;
-use egui::{Button, Label, RichText, Role, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
+use egui::{Button, Key, Label, RichText, Role, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
 
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::project::ProjectLibrary;
@@ -11,6 +11,7 @@ use crate::author::filter_menu::filter_menu;
 use crate::author::library_filter::{Candidate, Filter, listed};
 use crate::author::texture_row::{ROW, texture_row};
 use crate::command::Command;
+use crate::look::icons::close_button;
 use crate::look::theme::{GAP, tokens};
 use crate::panel::Panel;
 use crate::state::edit::Edit;
@@ -21,6 +22,8 @@ use shagreen_studio::library_names;
 const MENU_WIDTH: f32 = 220.0;
 /// Width of the filter button, in points.
 const FILTER_WIDTH: f32 = 66.0;
+/// Width of the button that clears the search, in points.
+const CROSS_WIDTH: f32 = 20.0;
 /// Distance between the parts of the column, in points; a small distance leaves more room for textures.
 const TIGHT: f32 = 3.0;
 /// Heights of a row of small buttons and of a line of small text, in points.
@@ -112,10 +115,21 @@ fn search_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut LibraryState) {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = TIGHT;
         ui.spacing_mut().button_padding.x = 4.0;
-        let size = vec2(ui.available_width() - FILTER_WIDTH - TIGHT, ui.spacing().interact_size.y);
+        let has_text = !state.search.is_empty();
+        let cross = if has_text { CROSS_WIDTH + TIGHT } else { 0.0 };
+        let size = vec2(ui.available_width() - FILTER_WIDTH - TIGHT - cross, ui.spacing().interact_size.y);
         let field = TextEdit::singleline(&mut state.search).hint_text(strings::SEARCH_HINT);
         let field = ui.add_sized(size, field);
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, strings::SEARCH));
+        let mut is_cleared = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Escape));
+        if has_text {
+            let button = close_button(ui.ctx());
+            let button = ui.add_sized(vec2(CROSS_WIDTH, size.y), button).accessible_name(words::CLEAR_SEARCH);
+            is_cleared |= button.on_hover_text(words::CLEAR_SEARCH).clicked();
+        }
+        if is_cleared {
+            state.search.clear();
+        }
         filter_menu(ui, panel, &mut state.filter, FILTER_WIDTH);
     });
 }
@@ -126,7 +140,7 @@ fn found(panel: &Panel<'_>, state: &LibraryState) -> Vec<usize> {
     let candidates = textures.iter().enumerate().map(|(index, entry)| Candidate {
         name: &entry.name,
         tags: &entry.tags,
-        at: panel.session.space().position(index),
+        at: panel.session.position(index),
         is_starred: panel.is_starred(index),
         is_joined: panel.joined_index(index).is_some(),
     });

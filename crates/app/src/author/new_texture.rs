@@ -5,7 +5,6 @@ use shagreen_formats::library::free_name;
 use shagreen_formats::project::{AuthoredTexture, N_COLORS};
 
 use crate::panel::Panel;
-use crate::state::clipboard::beside;
 use crate::strings::{self, authored as words};
 
 /// New texture at a position, with the interpolation settings of the selected one.
@@ -13,15 +12,15 @@ pub(crate) fn fresh(panel: &Panel<'_>, at: SpacePoint) -> AuthoredTexture {
     AuthoredTexture {
         color: next_color(panel),
         at,
-        blend: panel.project.texture().blend.clone(),
+        blend: panel.project.blend_of_new(),
         ..AuthoredTexture::new(0, &own_name(panel, strings::NEW_TEXTURE))
     }
 }
 
-/// Copy of an authored texture, beside it.
+/// Copy of an authored texture at the same position, so that it is the same texture.
 pub(crate) fn copy_of(panel: &Panel<'_>, texture: &AuthoredTexture) -> AuthoredTexture {
     let name = own_name(panel, &words::copy_of(&texture.name));
-    AuthoredTexture { name, color: next_color(panel), at: beside(texture.at), ..texture.clone() }
+    AuthoredTexture { name, color: next_color(panel), ..texture.clone() }
 }
 
 /// New authored texture with the state of a snapshot.

@@ -2,6 +2,7 @@
 
 mod controls_ui;
 mod pad_menu;
+mod picture;
 mod trail_ui;
 
 use egui::{
@@ -16,6 +17,7 @@ use shagreen_device::touch::Touch;
 
 use crate::author::pad::controls_ui::controls_ui;
 use crate::author::pad::pad_menu::pad_menu;
+pub use crate::author::pad::picture::PadPicture;
 use crate::author::pad::trail_ui::{LiveTrail, trail_ui};
 use crate::command::Command;
 use crate::look::drag::dragged_to;
@@ -44,6 +46,8 @@ pub struct PadState {
     pub repeats: bool,
     /// Tempo and force of the repeated stroke, relative to the recording.
     pub repeat: Repeat,
+    /// Whether the running stroke is a preview, which ends by itself.
+    pub(crate) is_preview: bool,
     /// Number of stroke recordings when last checked, to detect a new one.
     n_strokes: u64,
     /// Last pressure that the window system reported for a pen or finger on the pad, 0 to 1.
@@ -57,6 +61,7 @@ impl Default for PadState {
             hand: Hand { path: Path::Line, speed_mps: 0.1, force_n: 0.8, extent_m: EXTENT_M },
             repeats: false,
             repeat: Repeat::AS_RECORDED,
+            is_preview: false,
             n_strokes: 0,
             pressure: None,
             trail: LiveTrail::default(),
@@ -111,18 +116,6 @@ pub struct PadOutcome {
     pub mouse: Option<MouseReport>,
 }
 
-/// Picture of the audible texture, which repeats without a seam.
-#[derive(Clone, Copy, Debug)]
-pub struct PadPicture {
-    /// The picture on the graphics card.
-    pub texture: egui::TextureId,
-    /// Width and height in mm.
-    pub size_mm: [f64; 2],
-    /// Whether the texture is felt where the picture shows it: the lower left corner of the picture then lies in the middle
-    /// of the pad, where the tip is at zero.
-    pub is_felt: bool,
-}
-
 /// Draws the controls and the pad, with the picture of the audible texture.
 pub fn pad_ui(
     ui: &mut Ui,
@@ -137,14 +130,7 @@ pub fn pad_ui(
     let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::PAD));
     match picture {
-        Some(PadPicture { texture, size_mm: [width_mm, height_mm], is_felt }) => {
-            let shape = egui::epaint::RectShape::filled(area, f32::from(RADIUS), egui::Color32::WHITE);
-            let tile = POINTS_PER_MM * vec2(width_mm as f32, height_mm as f32);
-            let size = area.size() / tile;
-            let from = if is_felt { -0.5 * size } else { egui::Vec2::ZERO };
-            let uv = Rect::from_min_size(from.to_pos2(), size);
-            ui.painter().add(shape.with_texture(texture, uv));
-        }
+        Some(picture) => picture.show(ui.painter(), area),
         None => {
             ui.painter().rect_filled(area, f32::from(RADIUS), t.background);
         }
@@ -174,8 +160,7 @@ pub fn pad_ui(
     let pressed = response.is_pointer_button_down_on() && !is_secondary;
     let held_at = response.interact_pointer_pos().filter(|_| pressed || response.clicked());
     if let Some(pos) = dragged_to(ui, &response).or(held_at).filter(|_| !is_secondary) {
-        let from_middle = (pos - area.center()) / (POINTS_PER_MM * 1e3);
-        let (x_m, y_m) = (f64::from(from_middle.x), f64::from(-from_middle.y));
+        let [x_m, y_m] = on_pad_m(area, pos);
         learn(ui.ctx(), Hint::StrokePad);
         outcome.mouse = Some(MouseReport { x_m, y_m, pressed, pressure: state.pressure });
         // The output reports the tip after this frame, and a pointer that rests asks for none.
@@ -192,6 +177,12 @@ pub fn pad_ui(
 /// Screen position of a point on the pad, given in m from the center of the pad with y upwards.
 fn in_ui(area: Rect, x_m: f32, y_m: f32) -> Pos2 {
     area.center() + vec2(x_m, -y_m) * (POINTS_PER_MM * 1e3)
+}
+
+/// Position on the pad of a point of the screen, in m from the center of the pad with y upwards.
+fn on_pad_m(area: Rect, pos: Pos2) -> [f64; 2] {
+    let from_middle = (pos - area.center()) / (POINTS_PER_MM * 1e3);
+    [f64::from(from_middle.x), f64::from(-from_middle.y)]
 }
 
 fn scale_bar(ui: &Ui, area: Rect) {
@@ -219,6 +210,9 @@ fn lay_mark(ui: &Ui, area: Rect, lay: Radians) {
     let t = tokens(ui.ctx());
     let size = vec2(26.0, 26.0);
     let back = Rect::from_min_size(area.left_bottom() + vec2(4.0, -4.0 - size.y), size);
+    let response = ui.interact(back, ui.scope_id().with("lay"), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, strings::LAY));
+    response.on_hover_text(strings::LAY_HELP);
     ui.painter().rect_filled(back, 3.0, t.background.gamma_multiply(0.75));
     let along = vec2(lay.0.cos() as f32, -lay.0.sin() as f32);
     for line in [-1.0, 0.0, 1.0] {

@@ -43,6 +43,8 @@ pub struct Prompts {
     simulation: Option<Simulation>,
     /// Texture that was simulated last, and the key of its authored texture.
     simulated: Option<(u32, Arc<TextureEntry>)>,
+    /// Revision of the project after the last result was added.
+    step: Option<u64>,
 }
 
 /// Result of a finished job.
@@ -70,6 +72,7 @@ impl Prompts {
             guess: None,
             simulation: None,
             simulated: None,
+            step: None,
         }
     }
 
@@ -84,6 +87,7 @@ impl Prompts {
     /// Discards the jobs and the result, which belong to a project that is no longer open.
     pub(crate) fn forget(&mut self) {
         (self.job, self.guess, self.simulation, self.simulated) = (None, None, None, None);
+        self.step = None;
         self.waiting.clear();
     }
 
@@ -190,6 +194,16 @@ impl Prompts {
             self.simulation = Some(Simulation::begin(surface, key, Arc::clone(&guess.picture), ctx));
         }
         self.guess = Some(PositionEstimate { key: Some(key), ..guess });
+    }
+
+    /// Notes the revision of the project after the result was added.
+    pub(crate) fn note_step(&mut self, revision: u64) {
+        self.step = Some(revision);
+    }
+
+    /// Whether a project of this revision has not changed since the result was added.
+    pub(crate) fn is_at_step(&self, revision: u64) -> bool {
+        self.step == Some(revision)
     }
 
     /// Whether a texture is being simulated.

@@ -15,6 +15,7 @@ use self::trace_ui::{Span, trace_ui};
 use self::view::{Seen, level_now};
 use crate::choices::scope::View;
 use crate::command::Command;
+use crate::look::list::ShowList as _;
 use crate::look::theme::{GAP, tokens};
 use crate::panel::Panel;
 use crate::session::Spectra;
@@ -34,6 +35,8 @@ pub struct ScopeState {
     views: [View; 2],
     spans: [Option<Span>; 2],
     kind: ThresholdKind,
+    /// Whether each view had no room for the threshold menu in the last frame.
+    is_crowded: [bool; 2],
     frozen: Option<Box<Frozen>>,
 }
 
@@ -51,6 +54,7 @@ impl Default for ScopeState {
             views: [View::Waveform, View::Spectrum],
             spans: [None, None],
             kind: ThresholdKind::default(),
+            is_crowded: [false; 2],
             frozen: None,
         }
     }
@@ -149,9 +153,13 @@ fn view_ui(
             if side == 1 {
                 commands.extend(freeze_ui(ui, is_frozen));
             }
-            // Left out if the view is too narrow; the other view or a wider window has room for it.
-            if matches!(view, View::Spectrum | View::Level) && ui.available_width() > THRESHOLD_WIDTH {
-                threshold_ui(ui, state);
+            // In a narrow view, the list of views has the thresholds.
+            let has_threshold = matches!(view, View::Spectrum | View::Level);
+            state.is_crowded[side] = has_threshold && ui.available_width() <= THRESHOLD_WIDTH;
+            if has_threshold && !state.is_crowded[side] {
+                ui.menu_button(words::THRESHOLD, |ui| thresholds_ui(ui, state))
+                    .response
+                    .on_hover_text(words::THRESHOLD_HELP);
             }
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 said_ui(ui, view, state.spans[side], seen);
@@ -168,10 +176,16 @@ fn choice_ui(ui: &mut Ui, state: &mut ScopeState, side: usize) {
     let choice = ComboBox::from_id_salt(("view of the scope", side))
         .width(CHOICE_WIDTH)
         .selected_text(RichText::new(words::view(before)).strong());
-    let shown = choice.show_ui(ui, |ui| {
+    let shown = choice.show_list(ui, |ui| {
         for view in View::ALL {
             ui.selectable_value(&mut state.views[side], view, words::view(view))
                 .on_hover_text(words::view_help(view));
+        }
+        if state.is_crowded[side] {
+            ui.separator();
+            let heading = Label::new(RichText::new(words::THRESHOLD).small()).selectable(false);
+            ui.add(heading).on_hover_text(words::THRESHOLD_HELP);
+            thresholds_ui(ui, state);
         }
     });
     shown.response.accessible_name(words::VIEWS[side]).on_hover_text(words::VIEW_HELP);
@@ -198,15 +212,12 @@ fn said_ui(ui: &mut Ui, view: View, span: Option<Span>, seen: &Seen<'_>) {
     ui.add(label.show_tooltip_when_elided(false)).on_hover_text(help);
 }
 
-/// Draws the menu of detection thresholds.
-fn threshold_ui(ui: &mut Ui, state: &mut ScopeState) {
-    let menu = ui.menu_button(words::THRESHOLD, |ui| {
-        for kind in ThresholdKind::ALL {
-            ui.selectable_value(&mut state.kind, kind, words::threshold(kind))
-                .on_hover_text(words::threshold_help(kind));
-        }
-    });
-    menu.response.on_hover_text(words::THRESHOLD_HELP);
+/// Draws the choice of detection thresholds.
+fn thresholds_ui(ui: &mut Ui, state: &mut ScopeState) {
+    for kind in ThresholdKind::ALL {
+        ui.selectable_value(&mut state.kind, kind, words::threshold(kind))
+            .on_hover_text(words::threshold_help(kind));
+    }
 }
 
 fn freeze_ui(ui: &mut Ui, is_frozen: bool) -> Option<Command> {

@@ -1,6 +1,8 @@
-//! Shape of an authored texture: seven sliders, each with a button that makes it neutral.
+//! Shape of an authored texture: seven sliders, each with a button that makes it neutral. A slider that has nothing to act
+//! on is disabled and says why.
 
 use egui::{Align, Button, CollapsingHeader, Label, Layout, Slider, Ui, vec2};
+use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::shape::{Shape, ShapeControl};
 
 use crate::command::Command;
@@ -23,15 +25,16 @@ const LEAST_SLIDER_WIDTH: f32 = 40.0;
 pub(crate) fn shape_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
     let shape = panel.inspected().shape;
     let header = CollapsingHeader::new(words::heading(shape.changed().count())).id_salt("shape");
-    let shown = header.show_unindented(ui, |ui| controls_ui(ui, &shape));
+    let shown = header.show_unindented(ui, |ui| controls_ui(ui, panel, &shape));
     shown.header_response.on_hover_text(words::HELP);
     shown.body_returned.flatten().map(Command::Edit)
 }
 
-fn controls_ui(ui: &mut Ui, shape: &Shape) -> Option<Edit> {
+fn controls_ui(ui: &mut Ui, panel: &Panel<'_>, shape: &Shape) -> Option<Edit> {
     let mut asked = None;
     for control in ShapeControl::ALL {
-        asked = control_ui(ui, control, shape.get(control)).or(asked);
+        let is_useful = acts(panel, control);
+        asked = control_ui(ui, control, shape.get(control), is_useful).or(asked);
     }
     let reset = ui.add_enabled(!shape.is_neutral(), Button::new(words::RESET_ALL));
     if reset.on_hover_text(words::RESET_ALL_HELP).clicked() {
@@ -40,8 +43,33 @@ fn controls_ui(ui: &mut Ui, shape: &Shape) -> Option<Edit> {
     asked
 }
 
-/// Draws the name, the slider, the number and the reset button of a control in one row.
-fn control_ui(ui: &mut Ui, control: ShapeControl, before: f64) -> Option<Edit> {
+/// Whether a control has something to act on in the texture at the point. The textures that contribute are asked, because
+/// the interpolated one has the shape already: at a depth of 0, its relief is gone.
+fn acts(panel: &Panel<'_>, control: ShapeControl) -> bool {
+    let parents = panel.session.authored().map_or(&[][..], |authored| &authored.parents);
+    if parents.is_empty() || panel.solo().is_some() {
+        // The textures at the point are not known yet, or another one plays.
+        return true;
+    }
+    let models = parents.iter().filter_map(|(texture, _)| panel.session.textures().get(*texture));
+    models.map(|entry| &entry.model).any(|model| acts_on(control, model))
+}
+
+/// Whether a control has something to act on in one texture.
+fn acts_on(control: ShapeControl, model: &TextureModel) -> bool {
+    let has_heights = || model.relief().is_some() || model.height_map().is_some();
+    match control {
+        ShapeControl::Level | ShapeControl::Grain | ShapeControl::Brightness => true,
+        ShapeControl::Softness => model.tap().is_some(),
+        ShapeControl::Friction => model.friction().is_some(),
+        ShapeControl::Relief => has_heights(),
+        ShapeControl::Direction => model.along().is_some() || has_heights(),
+    }
+}
+
+/// Draws the name, the slider, the number and the reset button of a control in one row. Without something to act on, only
+/// the button works.
+fn control_ui(ui: &mut Ui, control: ShapeControl, before: f64, is_useful: bool) -> Option<Edit> {
     let (mut value, mut is_reset) = (before, false);
     let row = vec2(ui.available_width(), ui.spacing().interact_size.y);
     ui.allocate_ui_with_layout(row, Layout::left_to_right(Align::Center), |ui| {
@@ -49,12 +77,14 @@ fn control_ui(ui: &mut Ui, control: ShapeControl, before: f64) -> Option<Edit> {
         let name = vec2(NAME_WIDTH, row.y);
         ui.allocate_ui_with_layout(name, Layout::left_to_right(Align::Center), |ui| {
             ui.set_min_width(NAME_WIDTH);
-            ui.add(Label::new(words::name(control)).selectable(false)).on_hover_text(words::help(control));
+            let name = ui.add_enabled(is_useful, Label::new(words::name(control)).selectable(false));
+            name.on_hover_text(words::help(control)).on_disabled_hover_text(words::nothing(control));
         });
         let rest = NUMBER_WIDTH + RESET_WIDTH + 2.0 * GAP;
         ui.spacing_mut().slider_width = (ui.available_width() - rest).max(LEAST_SLIDER_WIDTH);
-        let slider = ui.add(slider(control, &mut value)).accessible_name(words::slider(control));
-        slider.on_hover_text(words::help(control));
+        let slider = ui.add_enabled(is_useful, slider(control, &mut value));
+        let slider = slider.accessible_name(words::slider(control));
+        slider.on_hover_text(words::help(control)).on_disabled_hover_text(words::nothing(control));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let button = icon_button(ICON_RESTART_ALT).small().frame(false);
             let reset = ui.add_enabled(before != control.neutral(), button);
@@ -65,9 +95,10 @@ fn control_ui(ui: &mut Ui, control: ShapeControl, before: f64) -> Option<Edit> {
     if is_reset {
         return Some(Edit::SetShape(control, control.neutral()));
     }
-    // A number field that loses the keyboard focus reads its rounded text again, which is no change by the user.
+    // A number field that loses the keyboard focus reads its rounded text again, which is no change by the user. A screen
+    // reader may set a slider that is not enabled.
     let is_own_text = words::number(control, before).parse() == Ok(value);
-    (value != before && !is_own_text).then_some(Edit::SetShape(control, value))
+    (is_useful && value != before && !is_own_text).then_some(Edit::SetShape(control, value))
 }
 
 fn slider(control: ShapeControl, value: &mut f64) -> Slider<'_> {

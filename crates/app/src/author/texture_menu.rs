@@ -8,11 +8,13 @@ use shagreen_formats::library::{Library, TextureEntry, free_id, free_name, id_fr
 use crate::author::context_menu::menu_entry;
 use crate::author::exact::{authored_exactly, taken};
 use crate::author::locks::{can_lock, lock_entry};
+use crate::author::whole_space::whole_space_switch;
 use crate::command::Command;
+use crate::command::relief::{ReliefCommand, ReliefOf};
 use crate::panel::Panel;
 use crate::state::edit::Edit;
 use crate::strings::authored::copy_of;
-use crate::strings::textures as words;
+use crate::strings::{relief, textures as words};
 
 /// Width of the menu, in points.
 const WIDTH: f32 = 150.0;
@@ -49,12 +51,26 @@ pub(crate) fn texture_menu(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Op
     if ui.button(words::DUPLICATE).on_hover_text(words::DUPLICATE_HELP).clicked() {
         asked = Some(Command::Edit(duplicated(panel, texture)));
     }
+    asked = relief_button(ui, panel, texture).or(asked);
     asked = remove_button(ui, panel, texture).or(asked);
+    if let Some(switch) = whole_space_switch(ui, panel, texture) {
+        asked = Some(switch);
+        ui.close();
+    }
     if can_lock(panel, texture) {
         ui.separator();
         asked = lock_entry(ui, panel, texture).or(asked);
     }
     asked
+}
+
+/// Draws the button that gives a texture a relief; it is disabled for a texture path.
+pub(crate) fn relief_button(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Option<Command> {
+    let entry = &panel.session.textures()[texture];
+    let button = ui.add_enabled(entry.path.is_none(), Button::new(relief::MENU));
+    let button = button.on_hover_text(relief::MENU_HELP).on_disabled_hover_text(relief::IS_PATH);
+    let of = || ReliefOf::Listed(entry.id.clone());
+    button.clicked().then(|| Command::Relief(ReliefCommand::Begin(Some(of()), None)))
 }
 
 /// Draws the button that removes a texture; it is disabled for a texture that was not added to the project.
@@ -73,14 +89,14 @@ pub(crate) fn starred(panel: &Panel<'_>, texture: usize) -> Edit {
 
 /// Edit that adds a copy of the texture to the project.
 pub(crate) fn duplicated(panel: &Panel<'_>, texture: usize) -> Edit {
-    Edit::AddTextures(vec![Arc::new(duplicate(panel.session.library(), texture))])
+    Edit::AddTextures(vec![Arc::new(copied(panel.session.library(), texture, copy_of))])
 }
 
-/// Copy of a texture at the same position, with a free name and identifier. License and origin of the library are
-/// stored in the copy, because another library may be open later.
-fn duplicate(library: &Library, texture: usize) -> TextureEntry {
+/// Copy of a texture at the same position, with a free identifier and the name that `named` makes of its own, or a free
+/// one. License and origin of the library are stored in the copy, because another library may be open later.
+pub(crate) fn copied(library: &Library, texture: usize, named: fn(&str) -> String) -> TextureEntry {
     let entry = &library.textures[texture];
-    let name = free_name(&copy_of(&entry.name), |name| library.textures.iter().any(|t| t.name == name));
+    let name = free_name(&named(&entry.name), |name| library.textures.iter().any(|t| t.name == name));
     let id = free_id(&id_from_name(&name), |id| library.index_of(id).is_some());
     let origin = if entry.origin.is_empty() { &library.origin } else { &entry.origin };
     let (license, origin) = (library.license_of(entry).to_owned(), origin.clone());
@@ -91,7 +107,7 @@ fn duplicate(library: &Library, texture: usize) -> TextureEntry {
 mod tests {
     use std::sync::Arc;
 
-    use super::duplicate;
+    use super::{copied, copy_of};
     use shagreen_formats::starter::starter_library;
 
     #[test]
@@ -99,7 +115,7 @@ mod tests {
         let mut library = starter_library().unwrap();
         let cork = library.index_of("cork").unwrap();
         for (name, id) in [("Cork copy", "cork-copy"), ("Cork copy 2", "cork-copy-2")] {
-            let copy = duplicate(&library, cork);
+            let copy = copied(&library, cork, copy_of);
             assert_eq!((copy.name.as_str(), copy.id.as_str()), (name, id));
             assert_eq!((&copy.license, &copy.origin), (&library.license, &library.origin));
             let original = &library.textures[cork];
@@ -107,6 +123,6 @@ mod tests {
             library.join(&[Arc::new(copy)]);
         }
         "CC-BY-4.0".clone_into(&mut library.textures[cork].license);
-        assert_eq!(duplicate(&library, cork).license, "CC-BY-4.0");
+        assert_eq!(copied(&library, cork, copy_of).license, "CC-BY-4.0");
     }
 }

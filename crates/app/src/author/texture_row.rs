@@ -7,14 +7,15 @@ use egui::{
 use shagreen_formats::library::{Provenance, TextureEntry};
 
 use crate::author::context_menu::context_menu;
+use crate::author::exact::clicked;
 use crate::author::locks::lock_mark;
 use crate::author::texture_drag::{follow_row_drag, row_sense};
 use crate::author::texture_menu::{starred, texture_menu};
 use crate::author::texture_picture::{picture_ui, place_in_words};
+use crate::author::whole_space::only_in;
 use crate::command::Command;
 use crate::look::theme::{RADIUS, Tokens, tokens};
 use crate::panel::Panel;
-use crate::state::edit::Edit;
 use crate::strings::edits::starred as star_name;
 use crate::strings::{self, textures as words};
 
@@ -44,11 +45,7 @@ pub(crate) fn texture_row(ui: &mut Ui, panel: &Panel<'_>, texture: usize, is_new
     }
     follow_row_drag(&response, &entry.id);
     let mut commands = Vec::new();
-    if response.clicked() {
-        let place = panel.session.space().position(texture);
-        let edit = place.map_or_else(|| Edit::Solo(Some(entry.id.clone())), Edit::MovePoint);
-        commands.push(Command::Edit(edit));
-    }
+    commands.extend(clicked(&response, panel, texture).map(Command::Edit));
     if !is_visible && !has_inner_focus {
         return commands;
     }
@@ -175,7 +172,7 @@ fn text_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize, area: Rect, end: f32)
     let rank = panel.session.parent_rank(texture);
     let color = rank.map_or(t.text, |r| t.parents[r.min(2)]);
     text.add(Label::new(RichText::new(&entry.name).color(color)).truncate().selectable(false));
-    let is_placed = panel.session.space().position(texture).is_some();
+    let is_placed = panel.session.position(texture).is_some();
     let below = match panel.session.parent_weight(texture) {
         Some(_) if panel.solo().is_some() => strings::HEARD_ALONE.to_owned(),
         Some(weight) => strings::of_the_blend(100.0 * weight),
@@ -192,13 +189,16 @@ fn text_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize, area: Rect, end: f32)
 /// Tooltip of a row.
 fn help(panel: &Panel<'_>, texture: usize) -> String {
     let entry = &panel.session.textures()[texture];
-    let place = panel.session.space().position(texture);
+    let place = panel.session.position(texture);
     let mut help = place.map_or(strings::NOT_PLACED_HELP.to_owned(), |at| place_in_words(panel, texture, at));
     if entry.provenance == Provenance::Restricted {
         help = format!("{help}\n{}", strings::import::RESTRICTED);
     }
+    if let Some(only_in) = only_in(panel, texture) {
+        help = format!("{help}\n{only_in}");
+    }
     if panel.is_locked(texture) {
         help = format!("{help}\n{}", strings::LOCKED);
     }
-    format!("{}\n{help}", entry.name)
+    format!("{}\n{help}\n{}", entry.name, words::CLICK_HELP)
 }

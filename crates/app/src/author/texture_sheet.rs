@@ -16,8 +16,9 @@ use shagreen_formats::library::TextureEntry;
 use self::curves::Curves;
 use self::facts_ui::{about_ui, attributes_ui, model_ui};
 use self::levels_ui::levels_ui;
-use crate::author::texture_menu::{duplicated, remove_button};
+use crate::author::texture_menu::{duplicated, relief_button, remove_button};
 use crate::author::texture_picture::picture_ui;
+use crate::author::whole_space::whole_space_ui;
 use crate::command::Command;
 use crate::look::plot::title;
 use crate::look::sheet_frame::{is_left, sheet};
@@ -56,6 +57,11 @@ impl TextureSheet {
     /// Sheet of the texture with this identifier, with the keyboard focus in the name field.
     pub(crate) fn to_rename(id: String) -> Self {
         Self { wants_name: true, ..Self::new(id) }
+    }
+
+    /// Identifier of the texture.
+    pub(crate) fn id(&self) -> &str {
+        &self.id
     }
 
     /// Draws the sheet; returns the requested commands.
@@ -98,6 +104,7 @@ impl TextureSheet {
                 });
                 ui.add_space(GAP);
                 about_ui(ui, panel, texture);
+                commands.extend(whole_space_ui(ui, panel, texture));
                 model_ui(ui, panel, entry);
                 attributes_ui(ui, entry);
             });
@@ -171,6 +178,7 @@ fn foot_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Vec<Command> {
         if ui.button(words::DUPLICATE).on_hover_text(words::DUPLICATE_HELP).clicked() {
             commands.extend([Command::Edit(duplicated(panel, texture)), Command::CloseSheet]);
         }
+        commands.extend(relief_button(ui, panel, texture));
         if let Some(remove) = remove_button(ui, panel, texture) {
             commands.extend([remove, Command::CloseSheet]);
         }

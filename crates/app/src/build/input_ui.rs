@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use egui::{Align, Button, Key, Label, Layout, RichText, TextEdit, Ui};
+use egui::{Align, Button, DragValue, Key, Label, Layout, RichText, TextEdit, TextStyle, Ui};
 
 use crate::browse::{Asked as Dialog, Browse};
 use crate::build::judgments::{Judgments, Slot};
@@ -12,6 +12,9 @@ use crate::session::Session;
 use crate::state::source::paths_in;
 use crate::strings::build as strings;
 use shagreen_studio::judgments::JudgmentKind;
+
+/// Height of the window from which rows are kept for what is not read yet, in points.
+const ROOMY_HEIGHT: f32 = 720.0;
 
 /// One field for the path of a table.
 #[derive(Default)]
@@ -45,11 +48,12 @@ struct Asked {
     clear: bool,
 }
 
-/// Draws the tables; returns whether a simulated panel is requested.
+/// Draws the tables and the `scale` of the ratings, its low end first; returns whether a simulated panel is requested.
 pub(super) fn inputs_ui(
     ui: &mut Ui,
     judgments: &mut Judgments,
     paths: &mut Paths,
+    scale: &mut [f64; 2],
     session: &Session,
 ) -> bool {
     let t = tokens(ui.ctx());
@@ -67,7 +71,8 @@ pub(super) fn inputs_ui(
             JudgmentKind::Ratings => &mut paths.ratings,
             JudgmentKind::Votes => &mut paths.votes,
         };
-        let asked = table_ui(ui, kind, path, &said);
+        let scale = (kind == JudgmentKind::Ratings).then_some(&mut *scale);
+        let asked = table_ui(ui, kind, path, &said, scale);
         if asked.read {
             judgments.read(paths_in(&path.text), Some(kind), ui.ctx());
         }
@@ -79,6 +84,10 @@ pub(super) fn inputs_ui(
     for alike in judgments.alike() {
         ui.add(Label::new(RichText::new(alike).small().color(t.warning)).wrap());
     }
+    if judgments.are_people() {
+        let text = RichText::new(strings::ASSUMED_PEOPLE).small().color(t.text_weak);
+        ui.add(Label::new(text).wrap());
+    }
     if judgments.is_reading() {
         ui.add(Label::new(RichText::new(strings::READING).small().color(t.text_weak)).selectable(false));
     }
@@ -87,7 +96,13 @@ pub(super) fn inputs_ui(
     ui.add_sized(size, Button::new(strings::SIMULATE)).on_hover_text(strings::SIMULATE_HELP).clicked()
 }
 
-fn table_ui(ui: &mut Ui, kind: JudgmentKind, path: &mut PathField, said: &Said) -> Asked {
+fn table_ui(
+    ui: &mut Ui,
+    kind: JudgmentKind,
+    path: &mut PathField,
+    said: &Said,
+    scale: Option<&mut [f64; 2]>,
+) -> Asked {
     let t = tokens(ui.ctx());
     let mut asked = Asked::default();
     let (title, help, nothing) = match kind {
@@ -97,6 +112,9 @@ fn table_ui(ui: &mut Ui, kind: JudgmentKind, path: &mut PathField, said: &Said) 
     };
     ui.horizontal(|ui| {
         ui.add(Label::new(RichText::new(title).strong()).selectable(false)).on_hover_text(help);
+        if let Some(scale) = scale {
+            scale_ui(ui, scale);
+        }
         if said.read.is_none() {
             ui.add(Label::new(RichText::new(nothing).small().color(t.text_weak)).selectable(false));
             return;
@@ -129,11 +147,19 @@ fn table_ui(ui: &mut Ui, kind: JudgmentKind, path: &mut PathField, said: &Said) 
             }
         }
     });
+    path.browse.missing_ui(ui);
     let line = |ui: &mut Ui, text: &str, color| {
         ui.add(Label::new(RichText::new(text).small().color(color)).wrap());
     };
     if let Some(read) = &said.read {
         line(ui, read, t.text);
+    } else if kind != JudgmentKind::Votes
+        && said.failure.is_none()
+        && ui.ctx().content_rect().height() >= ROOMY_HEIGHT
+    {
+        // The row of the counts is kept, so that the fields below do not move under the pointer when a table is read.
+        // In a low window, the options below need the space.
+        ui.allocate_space(egui::vec2(0.0, ui.text_style_height(&TextStyle::Small)));
     }
     for warning in &said.warnings {
         line(ui, warning, t.warning);
@@ -145,6 +171,14 @@ fn table_ui(ui: &mut Ui, kind: JudgmentKind, path: &mut PathField, said: &Said) 
         line(ui, failure, t.error);
     }
     asked
+}
+
+/// Draws the low and the high end of a rating scale.
+fn scale_ui(ui: &mut Ui, scale: &mut [f64; 2]) {
+    for (end, name) in scale.iter_mut().zip([strings::SCALE_LOW, strings::SCALE_HIGH]) {
+        let value = DragValue::new(end).range(0.0..=100.0).speed(0.1).max_decimals(2);
+        ui.add(value).accessible_name(name).on_hover_text(strings::SCALE_HELP);
+    }
 }
 
 fn said(judgments: &Judgments, kind: JudgmentKind, session: &Session) -> Said {

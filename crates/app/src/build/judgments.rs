@@ -10,13 +10,14 @@ use shagreen_core::people::sorting::Sort;
 use shagreen_core::space::LabelSource;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::Library;
+use shagreen_formats::places_csv::Scale;
 use shagreen_formats::similar_names::look_alikes;
 
 use crate::state::background::in_background;
 use crate::state::source::Source;
 use crate::strings::build as strings;
 use shagreen_studio::judgments::{
-    JudgmentKind, JudgmentTable, SimulatedJudgments, kind_of, read_judgments, simulate, source_of,
+    JudgmentKind, JudgmentTable, SimulatedJudgments, kind_of, read_judgments, rescaled, simulate, source_of,
 };
 
 /// Judgments of one kind.
@@ -45,6 +46,8 @@ pub struct Judgments {
     n_tickets: u64,
     /// Warnings about participants that may be the same person, in sentences.
     alike: Vec<String>,
+    /// Whether there are judgments, and none of them is by a simulated rater.
+    are_people: bool,
     /// Increases whenever other data is read.
     generation: u64,
 }
@@ -165,12 +168,32 @@ impl Judgments {
         let names = names.chain(self.ratings.values().iter().map(|rating| rating.participant.as_str()));
         let names: BTreeSet<&str> =
             names.chain(self.votes.values().iter().map(|v| v.participant.as_str())).collect();
-        self.alike = look_alikes(&names.into_iter().collect::<Vec<_>>(), strings::PARTICIPANTS);
+        let names: Vec<&str> = names.into_iter().collect();
+        self.alike = look_alikes(&names, strings::PARTICIPANTS);
+        self.are_people = !names.is_empty() && self.source() == LabelSource::HumanRatings;
     }
 
     /// Warnings about participants that may be the same person, written in several ways; in sentences.
     pub fn alike(&self) -> &[String] {
         &self.alike
+    }
+
+    /// Whether the participants are assumed to be people: there are some, and none has the name of a simulated rater.
+    pub fn are_people(&self) -> bool {
+        self.are_people
+    }
+
+    /// Ratings, converted to 0..100 from a scale with these ends.
+    ///
+    /// # Errors
+    /// The ends are no scale, or a rating is not on it, in one sentence.
+    pub(super) fn ratings_on(&self, [low, high]: [f64; 2]) -> Result<Arc<Vec<Rating>>, String> {
+        let scale = Scale::new(low, high).map_err(|error| error.to_string())?;
+        if scale == Scale::OF_SPACE {
+            return Ok(self.ratings.shared());
+        }
+        let converted = self.ratings.values().iter().map(|rating| rescaled(rating.clone(), scale));
+        converted.collect::<Result<Vec<_>, _>>().map(Arc::new)
     }
 
     /// Removes the judgments of one kind.
@@ -221,7 +244,31 @@ fn content(source: &Source, kind: Option<JudgmentKind>) -> Content {
 
 #[cfg(test)]
 mod tests {
-    use super::{Slot, sound};
+    use std::sync::Arc;
+
+    use shagreen_core::people::ratings::Rating;
+
+    use super::{Judgments, Slot, sound};
+
+    #[test]
+    fn ratings_are_converted_from_the_stated_scale() {
+        let rating = |value: f64| Rating {
+            participant: "p1".to_owned(),
+            texture: "cork".to_owned(),
+            pair: "rough-smooth".parse().unwrap(),
+            value: Some(value),
+        };
+        let mut judgments = Judgments::default();
+        judgments.ratings.take(1, "r.csv", Ok(sound(vec![rating(1.0), rating(7.0)])));
+        let values = |scale: [f64; 2]| {
+            judgments.ratings_on(scale).map(|all| all.iter().map(|r| r.value.unwrap()).collect::<Vec<_>>())
+        };
+        assert_eq!(values([1.0, 7.0]), Ok(vec![0.0, 100.0]));
+        assert_eq!(values([0.0, 100.0]), Ok(vec![1.0, 7.0]));
+        assert!(Arc::ptr_eq(&judgments.ratings_on([0.0, 100.0]).unwrap(), &judgments.ratings.shared()));
+        assert!(values([1.0, 6.0]).is_err_and(|reason| reason.contains("p1 rated cork 7")));
+        assert!(values([7.0, 1.0]).is_err_and(|reason| reason.contains("low end")));
+    }
 
     /// The file requested last counts, whichever is read first. A file that fails leaves the previous values.
     #[test]

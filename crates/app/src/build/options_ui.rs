@@ -1,12 +1,13 @@
 //! Options for building a space.
 
 use egui::{ComboBox, DragValue, Grid, Label, Response, RichText, Ui};
-use shagreen_core::people::mds::{MAX_DIMS, Ties};
+use shagreen_core::people::mds::{MAX_DIMS, Transform};
 use shagreen_core::people::ratings::{AdjectivePair, Rating};
 use shagreen_core::space::selection::Method;
 use shagreen_core::space::space_build::{FeatureKind, PlacedBy, SpaceOptions};
 
 use crate::author::axes_choice::with_axis;
+use crate::look::list::ShowList as _;
 use crate::look::theme::{GAP, tokens};
 use crate::strings::build as strings;
 
@@ -17,6 +18,10 @@ const ROW_GAP: f32 = 4.0;
 /// Maximum number of permutations: enough to resolve a p-value of 0.0001.
 const MAX_PERMUTATIONS: usize = 10_000;
 
+/// Treatments of ties; `None` selects one.
+const TIES: [Option<Transform>; 4] =
+    [None, Some(Transform::PrimaryTies), Some(Transform::SecondaryTies), Some(Transform::Interval)];
+
 /// Draws the options; the adjective pairs in `ratings` can be chosen as axes.
 pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rating]) {
     ui.heading(strings::OPTIONS);
@@ -25,14 +30,9 @@ pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rat
             let response = ui.add(DragValue::new(&mut options.n_dims).range(2..=MAX_DIMS).speed(0.05));
             beside(ui, strings::TIES, strings::TIES_HELP);
             let width = ui.max_rect().left() + CONTROL_WIDTH - ui.cursor().left();
-            combo(
-                ui,
-                strings::TIES,
-                width,
-                &mut options.mds.ties,
-                &[Ties::Primary, Ties::Secondary],
-                |ties| strings::ties(*ties).to_owned(),
-            )
+            combo(ui, strings::TIES, width, &mut options.transform, &TIES, |ties| {
+                strings::ties(*ties).to_owned()
+            })
             .accessible_name(strings::TIES)
             .on_hover_text(strings::TIES_HELP);
             response
@@ -114,7 +114,7 @@ fn combo<T: Clone + PartialEq>(
     word: impl Fn(&T) -> String,
 ) -> Response {
     let combo = ComboBox::from_id_salt(name).width(width).truncate().selected_text(word(current));
-    let combo = combo.show_ui(ui, |ui| {
+    let combo = combo.show_list(ui, |ui| {
         for each in all {
             ui.selectable_value(current, each.clone(), word(each));
         }

@@ -33,6 +33,8 @@ pub struct BuildPage {
     judgments: Judgments,
     paths: Paths,
     options: SpaceOptions,
+    /// Lowest and highest possible rating.
+    scale: [f64; 2],
     library: Option<ProjectLibrary>,
     job: Option<(Job, Recipe)>,
     /// Why the last build failed, and its input.
@@ -47,6 +49,7 @@ pub struct BuildPage {
 struct Recipe {
     judgments: u64,
     options: SpaceOptions,
+    scale: [f64; 2],
     library: Option<ProjectLibrary>,
 }
 
@@ -56,6 +59,7 @@ impl Default for BuildPage {
             judgments: Judgments::default(),
             paths: Paths::default(),
             options: SpaceOptions::usual(1),
+            scale: [0.0, 100.0],
             library: None,
             job: None,
             failure: None,
@@ -126,6 +130,7 @@ impl BuildPage {
         Recipe {
             judgments: self.judgments.generation(),
             options: self.options.clone(),
+            scale: self.scale,
             library: self.library.clone(),
         }
     }
@@ -145,7 +150,7 @@ impl BuildPage {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.set_max_width(ui.available_width() - f32::from(SCROLL_BAR));
             ui.add_space(GAP);
-            if inputs_ui(ui, &mut self.judgments, &mut self.paths, session) {
+            if inputs_ui(ui, &mut self.judgments, &mut self.paths, &mut self.scale, session) {
                 let library = session.library_as_opened();
                 self.judgments.simulate(library, self.options.seed, ui.ctx());
             }
@@ -185,13 +190,20 @@ impl BuildPage {
     }
 
     fn start(&mut self, session: &Session, ctx: &Context) {
+        let ratings = match self.judgments.ratings_on(self.scale) {
+            Ok(ratings) => ratings,
+            Err(reason) => {
+                self.failure = Some((reason, self.recipe()));
+                return;
+            }
+        };
         let seed = self.options.seed;
         let options =
             SpaceOptions { mds: MdsOptions { seed, ..self.options.mds.clone() }, ..self.options.clone() };
         let order = Order {
             textures: session.textures().iter().map(|t| (t.id.clone(), t.model.clone())).collect(),
             sorts: self.judgments.sorting.shared(),
-            ratings: self.judgments.ratings.shared(),
+            ratings,
             votes: self.judgments.votes.shared(),
             source: self.judgments.source(),
             options,

@@ -63,7 +63,7 @@ fn use_ui(ui: &mut Ui, panel: &Panel<'_>, built: &BuiltSpace) -> Option<Command>
     let is_in_use = panel.project.space.as_ref().is_some_and(|used| Arc::ptr_eq(used, &built.placed));
     let size = vec2(ui.available_width(), 30.0);
     if is_in_use {
-        let text = RichText::new(format!("{}: {}", strings::IN_USE, built.build.source.label()));
+        let text = RichText::new(format!("{}: {}", strings::IN_USE, built.build.place_source().label()));
         ui.add(Label::new(text.color(t.accent)).selectable(false));
         return ui
             .add_sized(size, Button::new(strings::GO_TO_AUTHOR))

@@ -1,5 +1,6 @@
 //! Design tokens: every color, size and distance of the window, for a dark and a light theme.
 
+use egui::style::ScrollStyle;
 use egui::{
     Color32, CornerRadius, FontFamily, FontId, Margin, Stroke, Style, TextStyle, Theme, Visuals, vec2,
 };
@@ -109,6 +110,8 @@ pub const LIGHT: Tokens = Tokens {
     error: Color32::from_rgb(0xB3, 0x2D, 0x20),
 };
 
+/// Width of a scroll bar and opacity of its handle while the pointer is elsewhere, in points and 0..1.
+const RESTING_BAR: (f32, f32) = (3.0, 0.45);
 /// Time for which the pointer rests before a tooltip appears, in seconds.
 pub(crate) const TOOLTIP_DELAY_SECS: f32 = 0.6;
 /// Distance between related items, in points.
@@ -121,12 +124,22 @@ pub const RADIUS: u8 = 5;
 pub const LIBRARY_WIDTH: f32 = 208.0;
 /// Width of the column with sliders and contributions, in points.
 pub const INSPECTOR_WIDTH: f32 = 290.0;
+/// Range of widths of the column with the texture list when the user moves its border, in points.
+pub const LIBRARY_WIDTHS: std::ops::RangeInclusive<f32> = 170.0..=400.0;
+/// Range of widths of the column with sliders and contributions when the user moves its border, in points.
+pub const INSPECTOR_WIDTHS: std::ops::RangeInclusive<f32> = 260.0..=560.0;
+/// Width that both columns leave to the map, in points.
+pub const LEAST_MAP_WIDTH: f32 = 300.0;
 /// Width of the column with judgments and options in the Build workspace, in points.
 pub const BUILD_INPUTS_WIDTH: f32 = 300.0;
 /// Width of the column with the validation summary of a space, in points.
 pub const VERDICT_WIDTH: f32 = 280.0;
 /// Range of heights of the row with pad and scope, in points; the row grows with the window.
 pub const STAGE_HEIGHTS: std::ops::RangeInclusive<f32> = 208.0..=360.0;
+/// Smallest height of this row when the user moves its border, in points.
+pub const LEAST_STAGE_HEIGHT: f32 = 150.0;
+/// Largest share of the window height that this row takes when the user moves its border.
+pub const LARGEST_STAGE_SHARE: f32 = 0.6;
 /// Share of the window height that this row takes within that range.
 pub const STAGE_SHARE: f32 = 0.27;
 /// Minimum width of the pad, in points, at which the sliders above it are still usable.
@@ -214,6 +227,9 @@ fn style(t: &Tokens, mut visuals: Visuals) -> Style {
     style.spacing.interact_size.y = 24.0;
     style.spacing.slider_rail_height = 5.0;
     style.spacing.window_margin = Margin::same(10);
+    // Visible wherever something scrolls, and over the content, so that nothing moves when a bar appears.
+    let (floating_width, dormant_handle_opacity) = RESTING_BAR;
+    style.spacing.scroll = ScrollStyle { floating_width, dormant_handle_opacity, ..ScrollStyle::floating() };
     style.interaction.tooltip_delay = TOOLTIP_DELAY_SECS;
     // Without a grace time, every tooltip waits until the pointer rests.
     style.interaction.tooltip_grace_time = 0.0;

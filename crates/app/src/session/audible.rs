@@ -13,7 +13,7 @@ use shagreen_formats::library::Library;
 use shagreen_studio::authoring::shaped_plane_at;
 use shagreen_studio::report::Warnings;
 
-pub(super) use self::shaped_textures::ShapedTextures;
+pub(super) use self::shaped_textures::{Shaped, ShapedTextures, Unshaped};
 
 use super::loaded_textures::Textures;
 
@@ -58,7 +58,7 @@ pub(super) struct Audible {
 ///
 /// # Errors
 /// States why a texture of the library cannot have this shape.
-pub(super) fn plane_of(
+fn plane_of(
     voice: Voice<'_>,
     shape: &Shape,
     library: &Library,
@@ -73,6 +73,21 @@ pub(super) fn plane_of(
         }
         Voice::Made(model) => Ok(Arc::new(Plane::new(model))),
     }
+}
+
+/// Speeds and forces of the voices of an interpolated texture in its shape, and their weights. `planes` are those of the
+/// library.
+///
+/// # Errors
+/// States why a texture of the library cannot have the shape.
+pub(super) fn planes_of(
+    authored: &Authored,
+    library: &Library,
+    planes: &[Arc<Plane>],
+) -> Result<Vec<(Arc<Plane>, f64)>, String> {
+    let voices = authored.voices().into_iter();
+    let of = |voice: Voice<'_>| plane_of(voice, &authored.shape, library, planes);
+    voices.map(|(voice, share)| of(voice).map(|plane| (plane, share))).collect()
 }
 
 impl Audible {
@@ -113,6 +128,12 @@ impl Audible {
         };
         let directional = self.voices.iter().filter(|voice| voice.plane.lay().is_some()).filter(differs);
         directional.max_by(|a, b| a.share.total_cmp(&b.share))?.plane.lay()
+    }
+
+    /// Angle of the x axis of the heaviest texture on the pad, counterclockwise.
+    pub(super) fn turn(&self) -> Radians {
+        let heaviest = self.voices.iter().max_by(|a, b| a.share.total_cmp(&b.share));
+        heaviest.map_or(Radians(0.0), |voice| voice.plane.turn())
     }
 
     /// A single interpolated texture, identified by `number`.

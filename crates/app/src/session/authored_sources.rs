@@ -1,6 +1,6 @@
 //! All authored textures of a project, for an export in the background: they are computed only when they are needed.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use shagreen_core::space::LabelSource;
 use shagreen_core::space::authoring::{Authored, Authoring};
@@ -11,7 +11,8 @@ use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::project::{AuthoredTexture, Project};
 
 use super::Session;
-use super::audible::plane_of;
+use super::audible::planes_of;
+use super::models_worker::Job;
 use super::signal::{SignalContext, entry_of, placed};
 use crate::state::signal_file::{SignalFile, Sounding};
 use crate::strings::export::of_texture;
@@ -19,14 +20,25 @@ use crate::strings::signal as strings;
 
 /// Copy of what the authored textures are computed from.
 pub(crate) struct AuthoredSources {
-    authoring: Authoring,
     library: Library,
     planes: Vec<Arc<Plane>>,
-    source: Option<LabelSource>,
     stroke: Option<Arc<Track>>,
     model_rate: Hertz,
     contact: Contact,
-    textures: Vec<Arc<AuthoredTexture>>,
+    /// The spaces of the textures.
+    spaces: Vec<SpaceSource>,
+    /// The textures, and the indices of their spaces.
+    textures: Vec<(Arc<AuthoredTexture>, usize)>,
+}
+
+/// A space of authored textures, with models that are computed when they are needed.
+struct SpaceSource {
+    authoring: Authoring,
+    /// Common source of the positions.
+    source: Option<LabelSource>,
+    /// What the models are computed from; `None` if they are there.
+    job: Option<Job>,
+    computed: OnceLock<Result<Authoring, String>>,
 }
 
 impl Session {
@@ -46,24 +58,46 @@ impl Session {
         if self.is_preparing() {
             return Err(strings::PREPARING.to_owned());
         }
-        let SignalContext { library, source, stroke, model_rate, contact } = self.signal_context(contact);
+        let SignalContext { library, source: _, stroke, model_rate, contact } = self.signal_context(contact);
+        let (mut spaces, mut textures) = (Vec::<SpaceSource>::new(), Vec::new());
+        for texture in &project.authored {
+            let found = self.found(texture);
+            let is_its = |known: &SpaceSource| known.authoring.space() == found.authoring.space();
+            let index = spaces.iter().position(is_its).unwrap_or(spaces.len());
+            if index == spaces.len() {
+                let space = found.authoring.space();
+                let source = self.source_in(space);
+                let job = (!found.is_done).then(|| self.job(space.clone()));
+                let authoring = found.authoring.into_owned();
+                spaces.push(SpaceSource { authoring, source, job, computed: OnceLock::new() });
+            }
+            textures.push((Arc::clone(texture), index));
+        }
         Ok(AuthoredSources {
-            authoring: self.authoring().clone(),
             library: library.clone(),
             planes: self.textures.planes.clone(),
-            source,
             stroke,
             model_rate,
             contact,
-            textures: project.authored.clone(),
+            spaces,
+            textures,
         })
+    }
+}
+
+impl SpaceSource {
+    /// Interpolation with models. The first call may compute them.
+    fn authoring(&self) -> Result<&Authoring, String> {
+        let Some(job) = &self.job else { return Ok(&self.authoring) };
+        let computed = self.computed.get_or_init(|| Ok(self.authoring.clone().with_models(job.run()?)));
+        computed.as_ref().map_err(Clone::clone)
     }
 }
 
 impl AuthoredSources {
     /// Names of the textures.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
-        self.textures.iter().map(|texture| texture.name.as_str())
+        self.textures.iter().map(|(texture, _)| texture.name.as_str())
     }
 
     /// Signals of the textures, in the order of their names: the blend at each point.
@@ -71,18 +105,16 @@ impl AuthoredSources {
     /// # Errors
     /// Names a texture that cannot be interpolated.
     pub(crate) fn signals(&self) -> Result<Vec<SignalFile>, String> {
-        let signal = |texture: &AuthoredTexture| {
-            let authored = self.authored(texture)?;
-            let plane = |voice| plane_of(voice, &authored.shape, &self.library, &self.planes);
-            let voices = authored.voices().into_iter();
-            let voices = voices.map(|(voice, share)| plane(voice).map(|plane| (plane, share)));
-            let voices: Vec<_> = voices.collect::<Result<_, String>>()?;
+        let signal = |texture: &AuthoredTexture, space: &SpaceSource| {
+            let authored = self.authored(texture, space)?;
+            let voices = planes_of(&authored, &self.library, &self.planes)?;
             if voices.is_empty() {
                 return Err(strings::NO_TEXTURE.to_owned());
             }
             let sounding = Sounding::Mix(voices, authored.mixing());
-            let file = self.context().signal(&authored, sounding, &authored.parents);
-            let sidecar = placed(file.sidecar, Some(&authored));
+            let file = self.context(space.source).signal(&authored, sounding, &authored.parents);
+            let mut sidecar = placed(file.sidecar, Some(&authored));
+            sidecar.name = Some(texture.name.clone());
             Ok(SignalFile { sidecar, ..file })
         };
         self.each(signal)
@@ -93,27 +125,31 @@ impl AuthoredSources {
     /// # Errors
     /// Names a texture that has no model, or whose model no file can hold.
     pub(crate) fn entries(&self) -> Result<Vec<TextureEntry>, String> {
-        self.each(|texture| entry_of(&self.library, &texture.name, &self.authored(texture)?))
+        self.each(|texture, space| entry_of(&self.library, &texture.name, &self.authored(texture, space)?))
     }
 
     /// Results for all textures, or the first error with the name of its texture.
-    fn each<T>(&self, of: impl Fn(&AuthoredTexture) -> Result<T, String>) -> Result<Vec<T>, String> {
-        let named =
-            |texture: &Arc<AuthoredTexture>| of(texture).map_err(|reason| of_texture(&texture.name, &reason));
+    fn each<T>(
+        &self,
+        of: impl Fn(&AuthoredTexture, &SpaceSource) -> Result<T, String>,
+    ) -> Result<Vec<T>, String> {
+        let named = |(texture, space): &(Arc<AuthoredTexture>, usize)| {
+            of(texture, &self.spaces[*space]).map_err(|reason| of_texture(&texture.name, &reason))
+        };
         self.textures.iter().map(named).collect()
     }
 
-    fn authored(&self, texture: &AuthoredTexture) -> Result<Authored, String> {
+    fn authored(&self, texture: &AuthoredTexture, space: &SpaceSource) -> Result<Authored, String> {
         let blending = texture.blend.blending(|id| self.library.index_of(id));
-        let authored = self.authoring.author(texture.at, &blending);
+        let authored = space.authoring()?.author(texture.at, &blending);
         let authored = authored.ok_or_else(|| strings::NO_TEXTURE.to_owned())?;
         authored.shaped(&texture.shape).map_err(|error| error.to_string())
     }
 
-    fn context(&self) -> SignalContext<'_> {
+    fn context(&self, source: Option<LabelSource>) -> SignalContext<'_> {
         SignalContext {
             library: &self.library,
-            source: self.source,
+            source,
             stroke: self.stroke.clone(),
             model_rate: self.model_rate,
             contact: self.contact,

@@ -1,18 +1,27 @@
-//! The authoring space, its models, and the texture at the point.
+//! The authoring spaces, their models, and the texture at the point.
 
-use shagreen_core::space::SpacePoint;
-use shagreen_core::space::authoring::{Authored, Authoring};
+use std::collections::BTreeSet;
 
+use shagreen_core::space::authoring::Authored;
+use shagreen_core::space::{Space, SpacePoint};
+
+use super::height_maps_worker::HeightMapsWorker;
 use super::models_worker::ModelsWorker;
 use super::path_walk::PathWalk;
+use super::spaces::Spaces;
 
-/// The authoring space and the texture interpolated in it.
+/// The authoring spaces and the texture interpolated in one of them.
 pub(super) struct AuthoredState {
-    pub(super) authoring: Authoring,
-    /// Counts changes of any interpolated texture.
-    pub(super) generation: u64,
-    /// Models of the space, computed by a worker.
+    /// The space of the audible authored texture, and recent ones.
+    pub(super) spaces: Spaces,
+    /// Pinned textures for which the current space was chosen; `None` if it must be chosen again.
+    pub(super) pins: Option<BTreeSet<String>>,
+    /// Pinned textures and space of the selected authored texture while another one with another space is audible.
+    pub(super) unheard: Option<(BTreeSet<String>, Space)>,
+    /// Models of a space, computed by a worker.
     pub(super) models: ModelsWorker,
+    /// Textures at the point whose height map is not ready to play.
+    pub(super) height_maps: HeightMapsWorker,
     /// The texture at the point.
     pub(super) current: Option<Authored>,
     /// Whether a blind comparison hides the audible texture.
@@ -28,11 +37,13 @@ pub(super) struct AuthoredState {
 }
 
 impl AuthoredState {
-    pub(super) fn new(authoring: Authoring) -> Self {
+    pub(super) fn new(space: Space) -> Self {
         Self {
-            authoring,
-            generation: 0,
+            spaces: Spaces::new(space),
+            pins: None,
+            unheard: None,
             models: ModelsWorker::default(),
+            height_maps: HeightMapsWorker::default(),
             current: None,
             is_hidden: false,
             n_made: 0,

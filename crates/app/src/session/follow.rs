@@ -2,17 +2,16 @@
 
 use std::sync::Arc;
 
-use shagreen_core::space::authoring::Authoring;
-use shagreen_core::space::{Space, SpacePoint};
+use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::plane::Plane;
 use shagreen_core::units::Hertz;
-use shagreen_formats::library::TextureEntry;
+use shagreen_formats::library::{Place, TextureEntry};
 use shagreen_formats::project::{AuthoredTexture, Project};
 use shagreen_studio::authoring::plane_at;
 use shagreen_studio::report::Warnings;
 
 use super::audible::Audible;
-use super::loaded_textures::{positions, rate_in, rate_of_space};
+use super::loaded_textures::{rate_in, rate_of_space};
 use super::places::{places, poles_of};
 use super::{Session, Spectra, drawn_frequencies};
 
@@ -35,21 +34,28 @@ impl Session {
             (Some(before), Some(now)) => Arc::ptr_eq(before, now),
             (before, now) => before.is_none() && now.is_none(),
         };
-        if !has_same_textures || !has_same_names || !has_same_space || self.textures.axes != project.axes {
+        let has_same_own = self.textures.own_ids == project.own;
+        let has_same_axes = self.textures.axes == project.axes;
+        if !(has_same_textures && has_same_names && has_same_space && has_same_own && has_same_axes) {
             self.take(project, &vec![true; self.textures.opened.n_textures() + n_same]);
         }
-        match self.authored.models.collect() {
-            Some(Ok(models)) => {
-                self.authored.authoring = self.authored.authoring.clone().with_models(models);
-                self.authored.generation += 1;
-                self.sound.player.wanted = None;
-            }
-            Some(Err(reason)) => {
-                self.sound.player.message = Some(reason);
-                self.sound.player.wanted = None;
-            }
-            None => {}
+        self.follow_space(&heard.unwrap_or(project.texture()).blend);
+        if heard.is_some() {
+            self.follow_unheard(&project.texture().blend);
         }
+        if let Some(outcome) = self.authored.models.collect() {
+            let models = match outcome {
+                Ok(models) => Some(models),
+                Err(reason) => {
+                    self.sound.player.message = Some(reason);
+                    None
+                }
+            };
+            if self.authored.spaces.put(models) {
+                self.sound.player.wanted = None;
+            }
+        }
+        self.ask_for_models();
         if !self.follow_felt(ctx) {
             self.follow_texture(project, heard, ctx);
         }
@@ -62,6 +68,14 @@ impl Session {
 
     /// Interpolates the audible texture if it has changed.
     fn follow_texture(&mut self, project: &Project, heard: Option<&AuthoredTexture>, ctx: &egui::Context) {
+        let has_rate = |model: &TextureModel| model.rate().0 == self.sound.rate_hz;
+        let ready = self.authored.height_maps.collect();
+        if let Some((ready, shaped)) = ready.filter(|(ready, _)| ready.model.as_ref().is_none_or(has_rate)) {
+            for texture in shaped {
+                self.sound.shaped.take(texture, &mut self.authored.n_made);
+            }
+            self.play(Some(&ready));
+        }
         let texture = heard.unwrap_or(project.texture());
         self.authored.path_point = self.follow_path(texture.path.as_ref());
         // A path overrides solo.
@@ -83,6 +97,7 @@ impl Session {
                 ctx,
             );
         }
+        self.authored.height_maps.begin(ctx);
     }
 
     /// Takes over textures, positions and axes from the project. `is_same` states, by index, which models are unchanged
@@ -92,6 +107,7 @@ impl Session {
         self.textures.library = project.textures_on(std::mem::take(&mut self.textures.library));
         let axes = project.axes.as_ref();
         self.textures.places = places(&self.textures.library.textures, axes);
+        self.textures.own = project.own_textures(self.textures.library.textures.len());
         let rate_before_hz = self.textures.space_rate_hz;
         self.textures.space_rate_hz = self.rate_of_places(project).0;
         let mut is_kept = vec![false; self.textures.places.len()];
@@ -120,36 +136,33 @@ impl Session {
         (self.textures.planes, self.textures.rates_hz) = (planes, rates_hz);
         self.textures.planes_ahead.follow(&self.textures.planes, &is_kept);
         self.sound.player.keep(&is_kept);
+        // What it prepares names textures by their index.
+        self.authored.height_maps.cancel();
         if rate_before_hz != self.textures.space_rate_hz
             || !self.sound.heard.survives(&is_kept, Hertz(self.sound.rate_hz))
         {
             self.sound.heard = Audible::default();
             self.sound.player.mix_is_new = true;
         }
-        match Space::new(&positions(&self.textures.places)) {
-            Ok(space) => {
-                let is_kept = |(texture, _): &(usize, SpacePoint)| is_kept[*texture];
-                // Computing a field takes seconds, so it is kept while neither positions nor textures change.
-                if space != *self.authored.authoring.space() || !space.sites().iter().all(is_kept) {
-                    self.authored.authoring = Authoring::new(space);
-                    self.ask_for_models();
-                }
-            }
-            Err(error) => self.sound.player.message = Some(error.to_string()),
+        // Computing a field takes seconds, so it is kept while neither positions nor textures change.
+        if self.authored.spaces.forget_changed(&is_kept) {
+            self.authored.models.cancel();
         }
+        (self.authored.pins, self.authored.unheard) = (None, None);
         self.textures.poles = poles_of(&self.textures.library, axes);
-        self.authored.generation += 1;
         (self.textures.joined, self.textures.used, self.textures.axes) =
             (project.joined.clone(), project.space.clone(), project.axes.clone());
         self.textures.renamed.clone_from(&project.renamed);
+        self.textures.own_ids.clone_from(&project.own);
         self.sound.player.wanted = None;
         if let Some(felt) = &mut self.sound.felt {
             felt.is_new = true;
         }
     }
 
-    /// Sample rate of the space. With the library's own positions, only textures of the library determine it, and added
-    /// textures are converted to it or left out.
+    /// Sample rate of the space. With the library's own positions, only textures of the library determine it. Textures that
+    /// belong to authored textures never do, so that the others do not change. Textures that do not determine it are
+    /// converted to it or left out.
     fn rate_of_places(&self, project: &Project) -> Hertz {
         let is_as_opened = project.space.is_none() && project.axes.is_none();
         let n_opened = self.textures.opened.n_textures();
@@ -158,7 +171,12 @@ impl Session {
         } else {
             self.textures.places.len()
         };
-        rate_of_space(&self.textures.library.textures[..n_deciding], &self.textures.places[..n_deciding])
+        let places: Vec<Option<Place>> = self.textures.places[..n_deciding]
+            .iter()
+            .enumerate()
+            .map(|(texture, place)| place.filter(|_| !self.textures.own.contains(texture)))
+            .collect();
+        rate_of_space(&self.textures.library.textures[..n_deciding], &places)
     }
 
     /// Sets the sample rate of the audible textures in Hz, and reopens the output if it changes.

@@ -1,10 +1,10 @@
 //! From the authored point to the audible textures.
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Authored, Blending};
+use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::rate::at_rate;
 use shagreen_core::texture::shape::Shape;
@@ -13,7 +13,7 @@ use shagreen_device::synth::tap::Tap;
 
 use super::Session;
 use super::audible::Audible;
-use super::models_worker::{Ingredients, Job};
+use super::height_maps_worker::needs_preparation;
 use super::path_walk::PathWalk;
 use shagreen_core::space::texture_path::UserPath;
 
@@ -75,7 +75,7 @@ impl Session {
         blending: &Blending,
         shape: &Shape,
     ) -> Option<Authored> {
-        match self.authored.authoring.author(at, blending)?.shaped(shape) {
+        match self.authored.spaces.current().author(at, blending)?.shaped(shape) {
             Ok(authored) => Some(authored),
             Err(error) => {
                 self.say(error.to_string());
@@ -84,10 +84,42 @@ impl Session {
         }
     }
 
-    /// Makes the interpolated texture audible. If the models for its mode are still being computed, the previous
-    /// texture keeps playing.
+    /// Makes the interpolated texture audible. If the models for its mode are still being computed, or while its height maps
+    /// are prepared, the previous texture keeps playing.
     pub(super) fn hear(&mut self) {
-        let heard = match &self.authored.current {
+        let current = self.authored.current.take();
+        let missing = |authored: &Authored| self.sound.shaped.missing(authored, &self.textures);
+        let unshaped = current.as_ref().map_or(Vec::new(), missing);
+        match &current {
+            Some(authored) if needs_preparation(authored) || !unshaped.is_empty() => {
+                let of_space = Hertz(self.textures.space_rate_hz);
+                let rate = authored.model.as_ref().map_or(of_space, TextureModel::rate);
+                if self.sound.heard.voices.iter().any(|voice| voice.plane.rate() != rate) {
+                    (self.sound.heard, self.sound.player.mix_is_new) = (Audible::default(), true);
+                }
+                self.authored.height_maps.ask(authored.clone(), unshaped);
+            }
+            authored => {
+                self.authored.height_maps.cancel();
+                self.play(authored.as_ref());
+            }
+        }
+        self.authored.current = current;
+    }
+
+    /// Stops what plays, so that the next texture does not begin with it.
+    pub(crate) fn fall_silent(&mut self) {
+        // A signal of the Signals workspace plays on.
+        if self.sound.felt.is_none() {
+            self.authored.height_maps.cancel();
+            self.play(None);
+            self.sound.player.wanted = None;
+        }
+    }
+
+    /// Plays an interpolated texture. Without one, there is silence.
+    pub(super) fn play(&mut self, authored: Option<&Authored>) {
+        let heard = match authored {
             Some(authored) => {
                 Audible::new(authored, &self.textures, &mut self.sound.shaped, &mut self.authored.n_made)
             }
@@ -97,29 +129,15 @@ impl Session {
             self.say(reason);
             Audible::default()
         });
-        if self.authored.current.is_some() && heard.voices.is_empty() && self.is_preparing() {
+        // In a blind comparison, the previous texture would be taken for this one.
+        let may_wait = self.is_preparing() && !self.is_hidden();
+        if authored.is_some() && heard.voices.is_empty() && may_wait {
             return;
         }
         self.sound.heard = heard;
         let tap_of = |texture: usize| self.textures.library.textures[texture].model.tap();
-        let tap = self.authored.current.as_ref().and_then(|authored| authored.tap(tap_of));
+        let tap = authored.and_then(|authored| authored.tap(tap_of));
         self.sound.player.tap = tap.map_or(Tap::SILENT, Tap::from);
         self.sound.player.mix_is_new = true;
-    }
-
-    /// Requests the models of the field and parametric modes for the textures in the space.
-    pub(super) fn ask_for_models(&mut self) {
-        let space = self.authored.authoring.space().clone();
-        if space.sites().is_empty() {
-            self.authored.models.cancel();
-            return;
-        }
-        let mut textures: Vec<Option<Ingredients>> = self.textures.planes.iter().map(|_| None).collect();
-        for (texture, _) in space.sites() {
-            let model = &self.textures.library.textures[*texture].model;
-            let plane = Arc::clone(&self.textures.planes[*texture]);
-            textures[*texture] = Some(Ingredients::of(model, plane));
-        }
-        self.authored.models.ask(Job { space, textures });
     }
 }

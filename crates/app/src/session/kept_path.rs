@@ -15,12 +15,13 @@ pub(crate) fn drawn_path(
     session: &Session,
 ) -> Option<Result<TexturePath, TexturePathError>> {
     let route = texture.path.as_ref()?.route()?;
-    let path = TexturePath::of_route(session.authoring(), &route, &session.blending(&texture.blend));
+    let authoring = session.authoring_of(texture);
+    let path = TexturePath::of_route(&authoring, &route, &session.blending(&texture.blend));
     Some(path.and_then(|path| path.shaped(&texture.shape)))
 }
 
 /// The project's path as a texture of the list, or `None` without a path. It carries the terms of use of every texture
-/// that has a position.
+/// in the space of its authored texture.
 ///
 /// # Errors
 /// There is no texture at a point of the path.
@@ -29,8 +30,8 @@ pub(crate) fn kept_path(
     session: &Session,
 ) -> Option<Result<TextureEntry, TexturePathError>> {
     let texture = project.texture();
-    let (authoring, blending) = (session.authoring(), session.blending(&texture.blend));
-    let of: Vec<usize> = session.space().sites().iter().map(|(texture, _)| *texture).collect();
+    let (authoring, blending) = (session.authoring_of(texture), session.blending(&texture.blend));
+    let of: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();
     Some(drawn_path(texture, session)?.map(|path| {
         let authored = path.keys().iter().filter_map(|key| authoring.author(key.stop.at, &blending));
         let n_extrapolated = authored.filter(|authored| authored.is_extrapolated).count();

@@ -1,6 +1,6 @@
 //! The textures that are open: the library, what the project adds to it, and what is computed from both.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use shagreen_core::space::SpacePoint;
@@ -9,7 +9,7 @@ use shagreen_core::texture::rate::highest_rate;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::placed_space::PlacedSpace;
-use shagreen_formats::project::ProjectLibrary;
+use shagreen_formats::project::{OwnTextures, ProjectLibrary};
 
 use super::places::Opened;
 use super::planes_worker::PlanesWorker;
@@ -25,6 +25,10 @@ pub(super) struct Textures {
     pub(super) opened: Opened,
     /// Textures that the project added.
     pub(super) joined: Vec<Arc<TextureEntry>>,
+    /// Identifiers of added textures that take part only in the authored textures that pin them.
+    pub(super) own_ids: BTreeSet<String>,
+    /// These textures, by index.
+    pub(super) own: OwnTextures,
     /// New names by id.
     pub(super) renamed: BTreeMap<String, String>,
     /// The space that gave the textures their positions.
@@ -56,6 +60,17 @@ pub(super) fn rate_of_space(textures: &[TextureEntry], places: &[Option<Place>])
 /// Sample rate at which a texture plays: that of the space, or its own if it has no position and can only be soloed.
 pub(super) fn rate_in(texture: &TextureEntry, place: Option<&Place>, rate_of_space: Hertz) -> Hertz {
     place.map_or(texture.model.rate(), |_| rate_of_space)
+}
+
+/// Position of each texture; `None` for those without a place and those that are left out.
+pub(super) fn positions_without(places: &[Option<Place>], left_out: &[usize]) -> Vec<Option<SpacePoint>> {
+    let mut positions = positions(places);
+    for texture in left_out {
+        if let Some(position) = positions.get_mut(*texture) {
+            *position = None;
+        }
+    }
+    positions
 }
 
 pub(super) fn positions(places: &[Option<Place>]) -> Vec<Option<SpacePoint>> {

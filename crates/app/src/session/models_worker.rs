@@ -70,10 +70,13 @@ impl Ingredients {
 }
 
 impl Job {
-    fn run(&self) -> Outcome {
+    /// Computes the models.
+    pub(super) fn run(&self) -> Outcome {
         let layers: Vec<Option<Layers<'_>>> =
             self.textures.iter().map(|texture| texture.as_ref().map(Ingredients::layers)).collect();
-        Models::new(&self.space, &layers).map(Arc::new).map_err(|error| error.to_string())
+        let models = Models::new(&self.space, &layers).map_err(|error| error.to_string())?;
+        models.prepare_height_maps();
+        Ok(Arc::new(models))
     }
 }
 

@@ -54,7 +54,7 @@ pub(super) fn places(textures: &[TextureEntry], axes: Option<&[String; 2]>) -> V
     let by_attributes = |texture: &TextureEntry, [across, up]: &[String; 2]| {
         let attributes = texture.attributes.as_ref()?;
         let at = SpacePoint { rough_smooth: attributes.get(across)?, hard_soft: attributes.get(up)? };
-        Some(Place { at, source: attributes.source })
+        Some(Place::new(at, attributes.source))
     };
     textures.iter().map(|texture| axes.map_or(texture.place, |axes| by_attributes(texture, axes))).collect()
 }

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use shagreen_core::space::LabelSource;
 use shagreen_core::space::authoring::Authored;
 use shagreen_core::space::texture_path::TexturePath;
+use shagreen_core::texture::plane::Plane;
+use shagreen_core::texture::shape::Shape;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_device::track::Track;
 use shagreen_formats::library::{Library, Provenance, TextureEntry};
@@ -13,6 +15,7 @@ use shagreen_formats::project::{AuthoredTexture, Project};
 use shagreen_formats::wav::{ParentV1, SidecarV1};
 
 use super::Session;
+use super::audible::planes_of;
 use crate::session::kept_path::drawn_path;
 use crate::state::bench_signal::BenchSignal;
 use crate::state::document::CREATED_BY;
@@ -49,12 +52,12 @@ impl Session {
             let parents = self.parents_along(texture, &path);
             (Sounding::Path(Box::new(path)), parents)
         } else {
-            if self.is_preparing() || self.sound.heard.voices.is_empty() {
+            let voices = if self.is_preparing() { Vec::new() } else { self.planes_heard(authored)? };
+            if voices.is_empty() {
                 return Err(strings::PREPARING.to_owned());
             }
             place = alone.is_none().then_some(authored);
-            let voices = self.sound.heard.voices.iter().map(|voice| (Arc::clone(&voice.plane), voice.share));
-            (Sounding::Mix(voices.collect(), self.sound.heard.mixing), authored.parents.clone())
+            (Sounding::Mix(voices, authored.mixing()), authored.parents.clone())
         };
         let texture = alone.map(|texture| self.textures.library.textures[texture].id.clone());
         let file = self.signal_context(contact).signal(authored, sounding, &parents);
@@ -62,11 +65,21 @@ impl Session {
         Ok(SignalFile { sidecar: placed(sidecar, place), ..file })
     }
 
+    /// Speeds and forces of the voices of the interpolated texture, and their weights: those that play, unless the previous
+    /// texture plays while a height map is prepared.
+    fn planes_heard(&self, authored: &Authored) -> Result<Vec<(Arc<Plane>, f64)>, String> {
+        if self.authored.height_maps.is_busy() {
+            return planes_of(authored, &self.textures.library, &self.textures.planes);
+        }
+        let voices = self.sound.heard.voices.iter();
+        Ok(voices.map(|voice| (Arc::clone(&voice.plane), voice.share)).collect())
+    }
+
     /// What all signals at one contact have in common.
     pub(super) fn signal_context(&self, contact: Contact) -> SignalContext<'_> {
         SignalContext {
             library: &self.textures.library,
-            source: self.common_source(),
+            source: self.source_in(self.space()),
             stroke: self.stroke().map(RecordedStroke::shared_track),
             model_rate: Hertz(self.sound.rate_hz),
             contact,
@@ -95,13 +108,36 @@ impl Session {
         entry_of(&self.textures.library, name, authored)
     }
 
+    /// An authored texture as a library entry with this name, in this shape, whether it is audible or not.
+    ///
+    /// # Errors
+    /// States why there is no entry: the models are still being computed, or the interpolation mode computes no texture.
+    pub(crate) fn entry_of_authored(
+        &self,
+        texture: &AuthoredTexture,
+        name: &str,
+        shape: &Shape,
+    ) -> Result<TextureEntry, String> {
+        let found = self.found(texture);
+        if !found.is_done {
+            return Err(strings::PREPARING.to_owned());
+        }
+        let blending = self.blending(&texture.blend);
+        let authored = found.authoring.author(texture.at, &blending);
+        let mut authored = authored.ok_or_else(|| strings::NO_TEXTURE.to_owned())?;
+        // With the pinned texture.
+        authored.model = found.authoring.model(texture.at, &blending);
+        let authored = authored.shaped(shape).map_err(|error| error.to_string())?;
+        entry_of(&self.textures.library, name, &authored)
+    }
+
     /// Textures that contribute along a path, and their mean weights, largest first.
     fn parents_along(&self, texture: &AuthoredTexture, path: &TexturePath) -> Vec<(usize, f64)> {
-        let blending = self.blending(&texture.blend);
+        let (authoring, blending) = (self.authoring_of(texture), self.blending(&texture.blend));
         let n_keys = path.keys().len() as f64;
         let mut shares = BTreeMap::new();
         for key in path.keys() {
-            let authored = self.authoring().author(key.stop.at, &blending);
+            let authored = authoring.author(key.stop.at, &blending);
             for (parent, weight) in authored.map_or(Vec::new(), |authored| authored.parents) {
                 *shares.entry(parent).or_insert(0.0) += weight / n_keys;
             }
@@ -115,7 +151,7 @@ impl Session {
 /// What all signals of a session at one contact have in common.
 pub(super) struct SignalContext<'a> {
     pub(super) library: &'a Library,
-    /// Common source of the positions.
+    /// Common source of the positions in the space.
     pub(super) source: Option<LabelSource>,
     pub(super) stroke: Option<Arc<Track>>,
     pub(super) model_rate: Hertz,

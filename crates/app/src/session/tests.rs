@@ -1,6 +1,10 @@
+mod exact_textures;
+mod shaped_reliefs;
+mod unheard_spaces;
+
 use std::sync::Arc;
 
-use shagreen_core::space::LabelSource;
+use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::rate::at_rate;
 use shagreen_core::texture::shape::{Shape, ShapeControl};
@@ -8,8 +12,8 @@ use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use shagreen_device::track::PenSample;
 use shagreen_formats::actuator_toml::built_in_actuators;
 use shagreen_formats::built_in::BuiltIn;
-use shagreen_formats::library::{Attribute, Attributes, Library};
-use shagreen_formats::project::{Project, ProjectLibrary};
+use shagreen_formats::library::{Attribute, Attributes, Library, Place, TextureEntry};
+use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
 use shagreen_formats::starter::starter_library;
 
 use super::{OutputChoice, Session};
@@ -108,7 +112,7 @@ fn another_library_is_opened_and_the_first_comes_back() {
     let (library, space) = (session.library().clone(), session.space().clone());
 
     let simulated = edited(&mine, Edit::OpenLibrary(ProjectLibrary::BuiltIn(BuiltIn::Simulated)));
-    assert_eq!((simulated.texture().at, &simulated.joined), (mine.texture().at, &mine.joined));
+    assert_eq!((simulated.texture().at, simulated.joined.len()), (mine.texture().at, 1));
     session.follow(&simulated, None, &ctx);
     assert_eq!(session.base(), &ProjectLibrary::BuiltIn(BuiltIn::Simulated));
     assert_eq!(session.other_libraries(), std::slice::from_ref(&begun.library));
@@ -228,6 +232,82 @@ fn a_soloed_texture_has_no_shape() {
     assert_eq!(session.authored().unwrap().shape, Shape::default());
     assert!(session.sound.heard.made.is_empty());
     assert!(Arc::ptr_eq(&session.sound.heard.voices[0].plane, &session.textures.planes[3]));
+}
+
+/// Follows a project until the models of its selected texture are there.
+fn follow_until_ready(session: &mut Session, project: &Project) {
+    let ctx = egui::Context::default();
+    let start = std::time::Instant::now();
+    session.follow(project, None, &ctx);
+    while session.is_preparing() {
+        assert!(start.elapsed().as_secs() < 300, "the field is computed");
+        session.begin_work(&ctx);
+        session.follow(project, None, &ctx);
+        std::thread::yield_now();
+    }
+}
+
+/// A generated texture belongs to the authored texture that it was made for. The models of the others are kept, and the
+/// switch changes them until it is undone.
+#[test]
+fn a_generated_texture_changes_no_other_authored_texture() {
+    let ctx = egui::Context::default();
+    let contact = Contact { speed: MetersPerSecond(0.1), force: Newtons(1.0) };
+    let frequencies = [Hertz(60.0), Hertz(150.0), Hertz(300.0)];
+    let generated = |id: &str, at: SpacePoint| {
+        let texture = starter_library().unwrap().textures[3].clone();
+        let place = Some(Place::new(at, LabelSource::Estimated));
+        Arc::new(TextureEntry { id: id.to_owned(), place, ..texture })
+    };
+    let [first, second] = [(40.0, 60.0), (43.0, 57.0)].map(|(rs, hs)| SpacePoint::new(rs, hs).unwrap());
+    let join = |key: u32, id: &str, at| Edit::JoinSimulated { key, entry: generated(id, at), earlier: None };
+    let one = [join(1, "first", first), Edit::MovePoint(SpacePoint::new(42.0, 58.0).unwrap())];
+    let one = one.into_iter().fold(new_project(), |project, edit| edited(&project, edit));
+    let mut session = Session::new(one.library.clone()).unwrap();
+    let heard = |session: &Session| {
+        let authored = session.authored().cloned().unwrap();
+        (authored, session.sound.heard.psd(contact, &frequencies))
+    };
+    let entry = |session: &Session, project: &Project| {
+        session.authored_sources(project, contact).unwrap().entries().unwrap().remove(0)
+    };
+    follow_until_ready(&mut session, &one);
+    let (before, exported) = (heard(&session), entry(&session, &one));
+    assert!(before.0.parents.iter().any(|(texture, _)| *texture == 25), "its own takes part");
+
+    let another = AuthoredTexture { blend: one.blend_of_new(), ..AuthoredTexture::new(0, "Second") };
+    assert!(another.blend.locked.is_empty());
+    let two = [Edit::Author(another), join(2, "second", second), Edit::Solo(None)];
+    let two = two.into_iter().fold(one.clone(), |project, edit| edited(&project, edit));
+    follow_until_ready(&mut session, &two);
+    let of_second = session.authored().unwrap().clone();
+    assert!(of_second.parents.iter().all(|(texture, _)| *texture != 25), "nor does the first change it");
+    assert_eq!(entry(&session, &two), exported);
+    // Models that are not kept are computed for an export.
+    let mut later = Session::new(two.library.clone()).unwrap();
+    follow_until_ready(&mut later, &two);
+    assert_eq!(entry(&later, &two), exported);
+    let back = edited(&two, Edit::Select(1));
+    session.follow(&back, None, &ctx);
+    assert!(!session.is_preparing(), "the models of the first are kept");
+    assert_eq!(heard(&session), before);
+    assert_eq!((session.left_out(&back.texture().blend), session.position(26)), (vec![26], Some(second)));
+    assert_eq!(session.space().position(26), None);
+
+    let switch = Edit::SetOwn { joined: 1, name: "Second".to_owned(), is_own: false };
+    assert_eq!(switch.label(&back), "Use Second in whole space");
+    let everywhere = edited(&back, switch);
+    follow_until_ready(&mut session, &everywhere);
+    assert_ne!(heard(&session), before);
+    assert!(session.authored().unwrap().parents.iter().any(|(texture, _)| *texture == 26));
+    session.follow(&back, None, &ctx);
+    assert!(!session.is_preparing() && heard(&session) == before, "undone");
+
+    // Another library keeps the pins of what belongs to the authored textures.
+    let opened = edited(&back, Edit::OpenLibrary(ProjectLibrary::BuiltIn(BuiltIn::Simulated)));
+    assert!(opened.texture().blend.locked.contains("first"));
+    let removed = edited(&back, Edit::RemoveTexture(1));
+    assert!(!removed.own.contains("second") && removed.own.contains("first"));
 }
 
 /// Updates the session until the condition holds.

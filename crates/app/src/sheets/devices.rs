@@ -80,7 +80,7 @@ impl DevicesSheet {
         if self.measurement.has_ended() {
             commands.push(Command::TakeOutputBack);
         }
-        if !shown.any_popup_open && !self.measurement.is_running() && is_left(ctx) {
+        if !self.measurement.is_running() && is_left(ctx) {
             commands.push(Command::CloseSheet);
         }
         commands

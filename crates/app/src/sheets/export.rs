@@ -4,11 +4,12 @@
 mod job;
 mod signal_ui;
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
 
-use egui::{Button, Color32, Context, Key, Label, RichText, ScrollArea, TextStyle, Ui};
+use egui::{Button, Color32, Context, Key, Label, RichText, ScrollArea, TextStyle, Ui, vec2};
 use shagreen_core::units::Contact;
 use shagreen_formats::library::Provenance;
 use shagreen_studio::export::{self, FormatInfo, WAV};
@@ -30,12 +31,20 @@ use crate::strings::{export as strings, import, signal};
 
 /// Width of the sheet, in points.
 const WIDTH: f32 = 560.0;
-/// Greatest height of the list of what is not stored, in points.
-const LOST_HEIGHT: f32 = 110.0;
+/// Number of lines in the list of what is not stored.
+const LOST_LINES: f32 = 5.0;
+/// Number of lines of the message above the buttons.
+const MESSAGE_LINES: f32 = 2.0;
+/// Height of the options of a signal, in points, until it is measured.
+const OPTIONS_HEIGHT: f32 = 84.0;
+/// Largest number of files whose names are listed.
+const MOST_NAMED: usize = 4;
 
 /// Files to export.
 pub(crate) struct ExportSubject {
     pub(crate) audible: AudibleTexture,
+    /// Whether the audible texture is one of the list that plays alone.
+    pub(crate) is_solo: bool,
     /// Number of authored textures; zero if only the audible one can be exported.
     pub(crate) n_authored: usize,
     /// Steady contact of the signals.
@@ -45,6 +54,7 @@ pub(crate) struct ExportSubject {
 /// State of the open sheet.
 pub(crate) struct ExportSheet {
     audible: Arc<AudibleTexture>,
+    is_solo: bool,
     n_authored: usize,
     contact: Contact,
     /// All authored textures, once they are asked for.
@@ -53,6 +63,10 @@ pub(crate) struct ExportSheet {
     options: SignalOptions,
     /// Whether all authored textures are exported.
     is_all: bool,
+    /// Name of the file of the audible texture, without its ending.
+    name: String,
+    /// Height of the options of a signal, in points: other formats leave this room, so that nothing moves.
+    options_height: f32,
     path: PathField,
     state: State,
     /// Choice whose summary is known or being computed.
@@ -73,8 +87,8 @@ struct Choice {
 enum State {
     #[default]
     Asking,
-    /// This number of files would be replaced.
-    Exists(usize),
+    /// These files would be replaced.
+    Exists(Vec<PathBuf>),
     Saving(Receiver<Outcome>, Option<Arc<BenchSignal>>),
     Saved(Vec<PathBuf>),
     Failed(String),
@@ -86,18 +100,26 @@ impl ExportSheet {
         let path = folder.join(name).with_extension(format.ending);
         Self {
             audible: Arc::new(subject.audible),
+            is_solo: subject.is_solo,
             n_authored: subject.n_authored,
             contact: subject.contact,
             authored: None,
             format,
             options: SignalOptions::default(),
             is_all: false,
+            name: name.to_owned(),
+            options_height: OPTIONS_HEIGHT,
             path: PathField::new(path.display().to_string()),
             state: State::default(),
             summarized: None,
             summary: None,
             summaries: LatestJob::default(),
         }
+    }
+
+    /// Offers folders that were used last.
+    pub(crate) fn offer(&mut self, folders: Vec<PathBuf>) {
+        self.path.offer(folders);
     }
 
     /// Folder of the exported files.
@@ -132,55 +154,113 @@ impl ExportSheet {
         let t = tokens(ui.ctx());
         let is_enabled = !self.is_saving();
         ui.add(Label::new(RichText::new(strings::TITLE).heading().strong()).selectable(false));
+        let subject =
+            strings::subject(&self.audible.name, self.is_solo, self.is_all.then_some(self.n_authored));
+        ui.add(Label::new(RichText::new(subject).color(t.text_weak)).truncate().selectable(false));
         ui.add_space(GAP);
         let mut is_changed = false;
         ui.add_enabled_ui(is_enabled, |ui| {
             is_changed |= self.formats_ui(ui, t);
             ui.add_space(GAP);
-            if let Ok(signal) = &self.audible.signal
-                && self.format == WAV
-            {
-                is_changed |= options_ui(ui, signal, &mut self.options);
-            }
+            is_changed |= self.options_ui(ui);
             if self.n_authored > 1 {
                 let all = ui.checkbox(&mut self.is_all, strings::all_of(self.n_authored));
-                is_changed |= all.on_hover_text(strings::ALL_HELP).changed();
+                if all.on_hover_text(strings::ALL_HELP).changed() {
+                    is_changed = true;
+                    self.follow_number();
+                }
             }
         });
         ui.add_space(GAP);
-        let texts = PathTexts {
-            title: strings::TITLE,
-            name: strings::PATH,
-            hint: strings::HINT,
-            ending: self.format.ending,
-        };
+        let (hint, ending) =
+            if self.is_all { (strings::FOLDER_HINT, "") } else { (strings::HINT, self.format.ending) };
+        let texts = PathTexts { title: strings::TITLE, name: strings::PATH, hint, ending };
         let input = self.path.show(ui, texts, is_enabled);
         if is_changed || input.is_changed {
-            // For several files the dialog of the system has asked about one only.
-            let is_asked = input.is_chosen && !self.is_all && Path::new(self.path.text()).exists();
-            self.state = if is_asked { State::Exists(1) } else { State::Asking };
+            // A folder is chosen without a question about its files.
+            let path = Path::new(self.path.text());
+            let is_asked = input.is_chosen && !self.is_all && path.exists();
+            self.state = if is_asked { State::Exists(vec![path.to_owned()]) } else { State::Asking };
         }
-        // The list comes later and has any length; what is above it must not move then.
-        ui.vertical(|ui| {
-            ui.set_min_height(LOST_HEIGHT + ui.text_style_height(&TextStyle::Body) + GAP);
-            self.lost_ui(ui, t);
-        });
-        let (text, color) = self.message(t);
-        ui.add(Label::new(RichText::new(text).color(color)).wrap());
+        self.lost_ui(ui, t);
+        self.message_ui(ui, panel);
         ui.add_space(GAP);
         ui.horizontal(|ui| {
-            let replaces = matches!(self.state, State::Exists(_));
+            let exists = matches!(self.state, State::Exists(_));
             let is_saved = matches!(self.state, State::Saved(_));
-            let can_save = !self.path.text().is_empty() && is_enabled && !is_saved;
-            let save = Button::new(if replaces { import::REPLACE } else { strings::EXPORT_NOW });
-            let is_entered = input.is_entered && !replaces;
-            if ui.add_enabled(can_save, save).clicked() || (can_save && is_entered) {
+            let can_save = !self.path.text().is_empty() && is_enabled && !is_saved && !exists;
+            let save = ui.add_enabled(can_save, Button::new(strings::EXPORT_NOW));
+            let close = Button::new(if is_saved { import::CLOSE } else { import::CANCEL });
+            let is_closed = ui.add_enabled(is_enabled, close).clicked();
+            // Not where the button before was, or a double click would replace files.
+            let replaces = exists && ui.button(import::REPLACE).clicked();
+            if save.clicked() || (can_save && input.is_entered) || replaces {
                 self.save(panel, replaces, ui.ctx());
             }
-            let close = Button::new(if is_saved { import::CLOSE } else { import::CANCEL });
-            ui.add_enabled(!self.is_saving(), close).clicked()
+            is_closed
         })
         .inner
+    }
+
+    /// Draws the options of a signal, or leaves their room; returns whether any has changed.
+    fn options_ui(&mut self, ui: &mut Ui) -> bool {
+        let top = ui.cursor().top();
+        match &self.audible.signal {
+            Ok(signal) if self.format == WAV => {
+                let is_changed = options_ui(ui, signal, &mut self.options);
+                self.options_height = ui.min_rect().bottom() - top;
+                is_changed
+            }
+            Ok(_) => {
+                ui.allocate_space(vec2(0.0, self.options_height));
+                false
+            }
+            Err(_) => false,
+        }
+    }
+
+    /// Turns the path of a file into that of its folder if all textures are exported, and the other way round.
+    fn follow_number(&mut self) {
+        let path = if self.is_all {
+            let path = self.folder();
+            if let Some(name) = Path::new(self.path.text()).file_stem().filter(|_| path.is_some()) {
+                self.name = name.to_string_lossy().into_owned();
+            }
+            path.unwrap_or_else(|| PathBuf::from(self.path.text()))
+        } else {
+            // A name may have dots.
+            Path::new(self.path.text()).join(format!("{}.{}", self.name, self.format.ending))
+        };
+        self.path.set(&path);
+    }
+
+    /// Folder of the typed path if that is the path of a file: one with the ending of a format.
+    fn folder(&self) -> Option<PathBuf> {
+        let path = Path::new(self.path.text());
+        let is_listed =
+            |ending: &OsStr| export::listed().any(|format| ending.eq_ignore_ascii_case(format.ending));
+        let is_file = path.extension().is_some_and(is_listed) && !path.is_dir();
+        if is_file { path.parent().map(Path::to_owned) } else { None }
+    }
+
+    /// Draws the message in a fixed height. The names of all files are in its tooltip.
+    fn message_ui(&self, ui: &mut Ui, panel: &Panel<'_>) {
+        let (text, color) = self.message(tokens(ui.ctx()), panel);
+        let height = height_of(ui, MESSAGE_LINES);
+        let area = ScrollArea::vertical().id_salt("message").max_height(height).min_scrolled_height(height);
+        area.auto_shrink(false).show(ui, |ui| {
+            let label = ui.add(Label::new(RichText::new(text).color(color)).wrap());
+            if self.is_all && matches!(self.state, State::Asking) {
+                label.on_hover_text(self.file_names(panel).join("\n"));
+            }
+        });
+    }
+
+    /// Names of the files of all authored textures.
+    fn file_names(&self, panel: &Panel<'_>) -> Vec<String> {
+        let names = panel.project.authored.iter().map(|texture| texture.name.as_str());
+        let paths = export::paths_in(Path::new(""), names, self.format.ending);
+        paths.iter().map(|path| path.display().to_string()).collect()
     }
 
     /// Draws the list of formats; returns whether another one was chosen.
@@ -214,37 +294,42 @@ impl ExportSheet {
         true
     }
 
-    /// Draws what the files cannot store, and a warning about textures that must not be redistributed.
+    /// Draws what the files cannot store, and a warning about textures that must not be redistributed, in a fixed height:
+    /// the list comes later and has any length, and nothing else must move then.
     fn lost_ui(&self, ui: &mut Ui, t: &Tokens) {
-        let weak = |text: &str| Label::new(RichText::new(text).color(t.text_weak)).wrap();
-        let summary = match &self.summary {
-            None => {
-                ui.add(weak(strings::CHECKING));
-                return;
-            }
-            Some(Err(reason)) => {
-                ui.add(Label::new(RichText::new(reason).color(t.error)).wrap());
-                return;
-            }
-            Some(Ok(summary)) => summary,
-        };
-        ui.add(weak(if summary.lost.is_empty() { strings::NOTHING_LOST } else { strings::LOST }));
-        ScrollArea::vertical().max_height(LOST_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
-            for property in &summary.lost {
-                ui.add(weak(&strings::lost(property)));
+        let height = height_of(ui, LOST_LINES);
+        let area = ScrollArea::vertical().id_salt("lost").max_height(height).min_scrolled_height(height);
+        area.auto_shrink(false).show(ui, |ui| {
+            // Leaves room for the scroll bar.
+            ui.set_max_width(ui.available_width() - 2.0 * GAP);
+            let label = |text: &str, color| Label::new(RichText::new(text).color(color)).wrap();
+            match &self.summary {
+                None => {
+                    ui.add(label(strings::CHECKING, t.text_weak));
+                }
+                Some(Err(reason)) => {
+                    ui.add(label(reason, t.error));
+                }
+                Some(Ok(summary)) => {
+                    let restricted: Vec<&str> = summary.restricted.iter().map(String::as_str).collect();
+                    if let Some(warning) = Provenance::warning(&restricted) {
+                        ui.add(label(&warning, t.warning));
+                    }
+                    let heading = if summary.lost.is_empty() { strings::NOTHING_LOST } else { strings::LOST };
+                    ui.add(label(heading, t.text_weak));
+                    for property in &summary.lost {
+                        ui.add(label(&strings::lost(property), t.text_weak));
+                    }
+                }
             }
         });
-        let restricted: Vec<&str> = summary.restricted.iter().map(String::as_str).collect();
-        if let Some(warning) = Provenance::warning(&restricted) {
-            ui.add(Label::new(RichText::new(warning).color(t.warning)).wrap());
-        }
     }
 
     /// What would happen, or has happened.
-    fn message(&self, t: &Tokens) -> (String, Color32) {
+    fn message(&self, t: &Tokens, panel: &Panel<'_>) -> (String, Color32) {
         match &self.state {
-            State::Asking => (self.to_save(), t.text_weak),
-            State::Exists(n) => (strings::exists(*n, self.is_all), t.warning),
+            State::Asking => (self.to_save(panel), t.text_weak),
+            State::Exists(paths) => (strings::exists(&listed(&names_of(paths)), paths.len()), t.warning),
             State::Saving(..) => (import::SAVING.to_owned(), t.text_weak),
             State::Saved(paths) => {
                 let shown = |path: Option<&Path>| path.unwrap_or(Path::new("")).display().to_string();
@@ -260,9 +345,10 @@ impl ExportSheet {
         }
     }
 
-    fn to_save(&self) -> String {
+    fn to_save(&self, panel: &Panel<'_>) -> String {
         if self.is_all {
-            return strings::all_to_save(self.n_authored, self.format.name);
+            let names = self.file_names(panel);
+            return strings::all_to_save(&listed(&names), names.len(), self.format.name);
         }
         match &self.audible.signal {
             Ok(file) if self.format == WAV => match &file.sounding {
@@ -299,7 +385,11 @@ impl ExportSheet {
 
     /// Exports in the background. Existing files are replaced only with `replaces`.
     fn save(&mut self, panel: &Panel<'_>, replaces: bool, ctx: &Context) {
-        let path = completed(self.path.text(), self.format.ending);
+        let path = match self.folder().filter(|_| self.is_all) {
+            Some(folder) => completed(&folder.display().to_string(), ""),
+            None if self.is_all => completed(self.path.text(), ""),
+            None => completed(self.path.text(), self.format.ending),
+        };
         self.path.set(&path);
         self.state = match self.job(panel, path) {
             Ok(job) => {
@@ -323,7 +413,7 @@ impl ExportSheet {
                 command = signal.map(|signal| Command::Signals(SignalsCommand::NoteExported(signal)));
                 State::Saved(paths)
             }
-            Ok(Outcome::Exists(n)) => State::Exists(n),
+            Ok(Outcome::Exists(paths)) => State::Exists(paths),
             Ok(Outcome::Failed(reason)) => State::Failed(reason),
         };
         self.path.refocus();
@@ -344,3 +434,26 @@ impl ExportSheet {
         }
     }
 }
+
+/// Height of this number of lines of text with the gaps between them, in points.
+fn height_of(ui: &Ui, n_lines: f32) -> f32 {
+    n_lines * (ui.text_style_height(&TextStyle::Body) + ui.spacing().item_spacing.y)
+}
+
+/// File names of paths.
+fn names_of(paths: &[PathBuf]) -> Vec<String> {
+    let names = paths.iter().map(|path| path.file_name().unwrap_or(path.as_os_str()));
+    names.map(|name| name.to_string_lossy().into_owned()).collect()
+}
+
+/// The first names, and the number of the others.
+fn listed(names: &[String]) -> String {
+    let mut listed = names.iter().take(MOST_NAMED).cloned().collect::<Vec<_>>().join(", ");
+    if names.len() > MOST_NAMED {
+        listed += &strings::and_more(names.len() - MOST_NAMED);
+    }
+    listed
+}
+
+#[cfg(test)]
+mod tests;

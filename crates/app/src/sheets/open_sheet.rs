@@ -103,6 +103,11 @@ impl OpenSheet {
         sheet
     }
 
+    /// Whether the sheet opens a project or a library.
+    pub(crate) fn is_for_projects(&self) -> bool {
+        self.wanted == Wanted::Projects
+    }
+
     /// Whether the sheet opens a stroke.
     pub(crate) fn is_for_strokes(&self) -> bool {
         self.wanted == Wanted::Strokes
@@ -160,6 +165,7 @@ impl OpenSheet {
             field.request_focus();
         }
         let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+        self.browse.missing_ui(ui);
         ui.add_space(GAP);
         let browsed = browsed.into_iter().next();
         let wanted =

@@ -26,6 +26,8 @@ pub(crate) struct OutsideLibrarySheet {
     pub(crate) reading: Reading,
     /// Path of another library, once the user chooses one.
     other: Option<String>,
+    /// Whether the field of this path, which has just appeared, takes the keyboard focus.
+    wants_focus: bool,
     browse: Browse,
     failure: Option<String>,
 }
@@ -33,7 +35,8 @@ pub(crate) struct OutsideLibrarySheet {
 impl OutsideLibrarySheet {
     /// Question about the library of a project.
     pub(crate) fn new(project: PathBuf, library: PathBuf, reading: Reading) -> Self {
-        Self { project, library, reading, other: None, browse: Browse::default(), failure: None }
+        let (other, wants_focus) = (None, false);
+        Self { project, library, reading, other, wants_focus, browse: Browse::default(), failure: None }
     }
 
     /// Shows why the project could not be opened.
@@ -48,7 +51,7 @@ impl OutsideLibrarySheet {
             self.content_ui(ui, is_opening)
         });
         let mut commands = shown.inner;
-        if !is_opening && is_left(ctx) {
+        if is_left(ctx) {
             commands.push(Command::CloseSheet);
         }
         commands
@@ -73,7 +76,7 @@ impl OutsideLibrarySheet {
                 let choose = Button::new(strings::CHOOSE_LIBRARY);
                 let choose = ui.add_enabled(self.other.is_none(), choose);
                 if choose.on_hover_text(strings::CHOOSE_LIBRARY_HELP).clicked() {
-                    self.other = Some(String::new());
+                    (self.other, self.wants_focus) = (Some(String::new()), true);
                     let folder = folder_of(&self.project);
                     self.browse.begin(ui.ctx(), &Asked { folder: Some(&folder), ..asked() });
                 }
@@ -102,6 +105,9 @@ impl OutsideLibrarySheet {
             .horizontal(|ui| {
                 let field = TextEdit::singleline(other).hint_text(strings::OTHER_LIBRARY_HINT);
                 let field = ui.add(field.desired_width(ui.available_width() - BROWSE_WIDTH));
+                if std::mem::take(&mut self.wants_focus) {
+                    field.request_focus();
+                }
                 let asked = Asked { folder: Some(&folder), ..asked() };
                 let chosen = self.browse.show(ui, strings::OTHER_LIBRARY, &asked);
                 let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
@@ -109,6 +115,7 @@ impl OutsideLibrarySheet {
                 (is_entered, chosen)
             })
             .inner;
+        self.browse.missing_ui(ui);
         let path = other.trim();
         let is_named = !path.is_empty();
         let use_it = ui.add_enabled(is_named, Button::new(strings::USE_LIBRARY));

@@ -1,4 +1,4 @@
-//! Field for the path of a file to write, with the button for the dialog of the system.
+//! Field for the path of a file to write, with the button for the dialog of the system and recent folders.
 
 use std::path::{Path, PathBuf};
 
@@ -6,6 +6,7 @@ use egui::text::{CCursor, CCursorRange};
 use egui::{Context, Id, Key, TextEdit, Ui};
 
 use crate::browse::{Asked, BROWSE_WIDTH, Browse};
+use crate::sheets::folders_ui::{FOLDERS_WIDTH, folders_ui};
 
 /// Texts of the field, and the usual ending of the file's name.
 #[derive(Clone, Copy)]
@@ -15,6 +16,7 @@ pub(crate) struct PathTexts<'a> {
     /// Accessible name of the field.
     pub(crate) name: &'a str,
     pub(crate) hint: &'a str,
+    /// Empty for the path of a folder.
     pub(crate) ending: &'a str,
 }
 
@@ -34,11 +36,17 @@ pub(crate) struct PathField {
     text: String,
     is_focused: bool,
     browse: Browse,
+    folders: Vec<PathBuf>,
 }
 
 impl PathField {
     pub(crate) fn new(text: String) -> Self {
-        Self { text, is_focused: false, browse: Browse::default() }
+        Self { text, is_focused: false, browse: Browse::default(), folders: Vec::new() }
+    }
+
+    /// Offers folders that were used last.
+    pub(crate) fn offer(&mut self, folders: Vec<PathBuf>) {
+        self.folders = folders;
     }
 
     /// Typed path, without spaces around it.
@@ -60,16 +68,19 @@ impl PathField {
         let mut input = PathInput::default();
         ui.horizontal(|ui| {
             let field = TextEdit::singleline(&mut self.text).hint_text(texts.hint);
-            let field = field.desired_width(ui.available_width() - BROWSE_WIDTH);
+            let folders_width = if self.folders.is_empty() { 0.0 } else { FOLDERS_WIDTH };
+            let field = field.desired_width(ui.available_width() - BROWSE_WIDTH - folders_width);
             let field = ui.add_enabled(is_enabled, field).accessible_name(texts.name);
             let present = completed(self.text(), texts.ending);
             let name = present.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let is_folder = texts.ending.is_empty();
             let asked = Asked {
                 title: texts.title,
                 kind: texts.title,
                 endings: &[texts.ending],
-                folder: present.parent(),
+                folder: if is_folder { Some(&*present) } else { present.parent() },
                 name: Some(&name),
+                is_folder,
                 ..Asked::default()
             };
             let chosen = ui.add_enabled_ui(is_enabled, |ui| self.browse.show(ui, texts.name, &asked)).inner;
@@ -77,13 +88,20 @@ impl PathField {
                 self.set(&chosen);
                 input.is_chosen = true;
             }
-            input.is_changed = field.changed() || input.is_chosen;
+            let recent = ui.add_enabled_ui(is_enabled, |ui| folders_ui(ui, &self.folders)).inner;
+            let is_moved = recent.is_some();
+            if let Some(folder) = recent {
+                self.set(&if is_folder { folder } else { folder.join(&name) });
+                self.is_focused = false;
+            }
+            input.is_changed = field.changed() || input.is_chosen || is_moved;
             input.is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
             if is_enabled && !std::mem::replace(&mut self.is_focused, true) {
                 field.request_focus();
                 select_name(ui.ctx(), field.id, &self.text);
             }
         });
+        self.browse.missing_ui(ui);
         input
     }
 }

@@ -77,6 +77,11 @@ impl SaveSheet {
         Self { subject, path: PathField::new(path), state: State::default(), granted: None }
     }
 
+    /// Offers folders that were used last.
+    pub fn offer(&mut self, folders: Vec<PathBuf>) {
+        self.path.offer(folders);
+    }
+
     /// Folder in which a figure or stroke was saved.
     pub fn folder_of_export(&self) -> Option<&Path> {
         let State::Saved(path) = &self.state else { return None };
@@ -149,18 +154,18 @@ impl SaveSheet {
         ui.add(Label::new(RichText::new(text).color(color)).wrap());
         ui.add_space(GAP);
         ui.horizontal(|ui| {
-            let replaces = matches!(self.state, State::Exists);
-            let has_path = !self.path.text().is_empty();
-            let can_save = has_path && !is_saving && !matches!(self.state, State::Saved(_));
-            let save = Button::new(if replaces { strings::REPLACE } else { strings::SAVE });
-            let is_entered = input.is_entered && !replaces;
-            if ui.add_enabled(can_save, save).clicked() || (can_save && is_entered) {
-                self.save(library, replaces, ui.ctx());
-            }
+            let exists = matches!(self.state, State::Exists);
             let is_saved = matches!(self.state, State::Saved(_));
+            let can_save = !self.path.text().is_empty() && !is_saving && !is_saved && !exists;
+            let save = ui.add_enabled(can_save, Button::new(strings::SAVE));
             let close = Button::new(if is_saved { strings::CLOSE } else { strings::CANCEL });
-            if ui.add_enabled(!self.is_saving(), close).clicked() {
+            if ui.add_enabled(!is_saving, close).clicked() {
                 commands.push(Command::CloseSheet);
+            }
+            // Not where the button before was, or a double click would replace the file.
+            let replaces = exists && ui.button(strings::REPLACE).clicked();
+            if save.clicked() || (can_save && input.is_entered) || replaces {
+                self.save(library, replaces, ui.ctx());
             }
         });
         commands

@@ -6,7 +6,7 @@ use shagreen_core::signals::codec::CODEC_RATE;
 use shagreen_core::signals::codec::bitrate::Bitrate;
 use shagreen_core::signals::codec::coded::Coded;
 use shagreen_core::signals::quality::{
-    Distances, Feature, Features, PAPER_RATE, QualityMeter, SEGMENT_SECS, snr_db,
+    Agreement, Distances, Feature, Features, PAPER_RATE, QualityMeter, Relation, SEGMENT_SECS, snr_db,
 };
 use shagreen_core::signals::spatial_spectrogram::{
     Framing, PAPER_WINDOWS_M, ProfileFidelity, SpatialSpectrogram, Transform, fidelity_by_window, profile_of,
@@ -44,6 +44,8 @@ pub struct Compared {
     pub parts: Vec<(Feature, f64)>,
     /// Sensitivity index d'. It is predicted, not measured with people.
     pub d_prime: f64,
+    /// Whether the model of d' applies to these signals.
+    pub relation: Relation,
     /// Signal-to-noise ratio of the second signal relative to the first, in dB. Infinite if both are equal, minus
     /// infinite if only the first is silent.
     pub snr_db: f64,
@@ -111,6 +113,7 @@ pub(super) fn compare(first: &BenchSignal, second: &BenchSignal) -> Result<Compa
         parts: model.parts(&distances).collect(),
         distances,
         d_prime,
+        relation: Agreement::of(&a, &b, PAPER_RATE).relation(),
         snr_db: snr_db(&a, &b),
         seconds: (n_samples / meter.n_segment()) as f64 * SEGMENT_SECS,
     })
@@ -160,6 +163,7 @@ mod tests {
     use crate::state::bench_signal::BenchSignal;
     use crate::state::bench_signal::tests::tone;
     use shagreen_core::signals::codec::bitrate::Bitrate;
+    use shagreen_core::signals::quality::Relation;
     use shagreen_core::units::Hertz;
 
     #[test]
@@ -177,6 +181,7 @@ mod tests {
         let sum: f64 = other.parts.iter().map(|(_, part)| part).sum();
         assert!((sum - other.d_prime).abs() < 1e-12 && other.d_prime > 0.0);
         assert!(other.snr_db.is_finite());
+        assert_eq!((same.relation, other.relation), (Relation::Processed, Relation::Processed));
         assert!(compare(&signal, &tone(80.0, 4000.0, 0.5)).is_err(), "too short");
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use egui::{Align2, Color32, FontId, Grid, Label, Rect, RichText, Sense, Ui, pos2, vec2};
-use shagreen_core::signals::quality::{Feature, proportion_correct};
+use shagreen_core::signals::quality::Feature;
 use shagreen_formats::figure::Figure;
 
 use super::analysis::Compared;
@@ -33,11 +33,11 @@ pub(super) fn features_ui(
         let text = RichText::new(strings::named(slot, name)).color(slot_color(ui, slot));
         ui.add(Label::new(text).wrap().selectable(false));
     }
-    let large = RichText::new(strings::d_prime(compared.d_prime)).heading().color(t.text);
+    let large = RichText::new(strings::d_prime(compared.d_prime, compared.relation)).heading().color(t.text);
     ui.horizontal(|ui| {
         ui.add(Label::new(large).selectable(false)).on_hover_text(strings::D_PRIME_HELP);
-        let answers = RichText::new(strings::answers(proportion_correct(compared.d_prime)));
-        ui.add(Label::new(answers).wrap().selectable(false)).on_hover_text(strings::D_PRIME_HELP);
+        let meaning = RichText::new(strings::meaning(compared.d_prime, compared.relation));
+        ui.add(Label::new(meaning).wrap().selectable(false)).on_hover_text(strings::D_PRIME_HELP);
     });
     let said = strings::compared(compared.snr_db, compared.seconds);
     ui.add(Label::new(RichText::new(said).small().color(t.text_weak)).wrap().selectable(false));

@@ -192,7 +192,7 @@ pub(super) fn features_figure(compared: &Compared, names: [&str; 2]) -> Figure {
         (differences::feature(feature).to_owned(), numbers)
     };
     Figure::Table(Table {
-        title: differences::features_title(compared.d_prime),
+        title: differences::features_title(compared.d_prime, compared.relation),
         columns: differences::FEATURE_COLUMNS.map(str::to_owned).to_vec(),
         rows: Feature::ALL.into_iter().map(row).collect(),
         decimals: 3,

@@ -22,6 +22,7 @@ use crate::choices::signals::Slot;
 use crate::choices::signals::View;
 use crate::command::Command;
 use crate::command::signals::SignalsCommand;
+use crate::look::list::ShowList as _;
 use crate::look::theme::{BUILD_INPUTS_WIDTH, GAP, tokens};
 use crate::panel::Panel;
 use crate::state::background::JobPanicked;
@@ -349,7 +350,7 @@ impl SignalsPage {
             ui.add(Label::new(RichText::new(strings::OVER).color(t.text_weak)).selectable(false));
             let shown = self.over.as_ref().and_then(named).unwrap_or(strings::NOTHING).to_owned();
             let combo = ComboBox::from_id_salt("over").width(ui.available_width() - 8.0).truncate();
-            let combo = combo.selected_text(shown).show_ui(ui, |ui| {
+            let combo = combo.selected_text(shown).show_list(ui, |ui| {
                 ui.selectable_value(&mut self.over, None, strings::NOTHING);
                 // A texture that changes along a path is left out, because its own textures play it.
                 for texture in textures.iter().filter(|texture| texture.path.is_none()) {

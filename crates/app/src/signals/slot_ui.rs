@@ -13,6 +13,7 @@ use crate::choices::signals::Slot;
 use crate::command::Command;
 use crate::command::signals::SignalsCommand;
 use crate::look::icons::{ICON_PLAY_ARROW, ICON_STOP, close_button, icon_button};
+use crate::look::list::ShowList as _;
 use crate::look::theme::{RADIUS, tokens};
 use crate::state::source::paths_in;
 use crate::strings::signals as strings;
@@ -82,11 +83,10 @@ fn head_ui(ui: &mut Ui, slot: Slot, place: &Place, state: State, asked: &mut Ask
         let letter = RichText::new(slot.name()).heading().strong().color(slot_color(ui, slot));
         ui.add(Label::new(letter).selectable(false));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if has_signal {
-                let cross = close_button(ui.ctx());
-                let name = strings::remove(slot);
-                asked.is_cleared = ui.add(cross).accessible_name(&name).on_hover_text(name).clicked();
-            }
+            // It is there without a signal too, so that the buttons beside it do not move.
+            let cross = ui.add_enabled(has_signal, close_button(ui.ctx()));
+            let name = strings::remove(slot);
+            asked.is_cleared = cross.accessible_name(&name).on_hover_text(name).clicked();
             let feel = Button::selectable(is_felt, strings::FEEL);
             let feel = ui.add_enabled(has_signal, feel).accessible_name(strings::feel(slot));
             if feel.on_hover_text(strings::feel_help(slot)).clicked() {
@@ -235,7 +235,7 @@ pub(super) fn remaking_ui(
             asked = Some(FromA::Codec);
         }
         let combo = ComboBox::from_id_salt("bitrate").width(84.0);
-        let combo = combo.selected_text(strings::kbps(remaking.rate.kbps())).show_ui(ui, |ui| {
+        let combo = combo.selected_text(strings::kbps(remaking.rate.kbps())).show_list(ui, |ui| {
             for rate in Bitrate::ALL {
                 ui.selectable_value(&mut remaking.rate, rate, strings::kbps(rate.kbps()));
             }

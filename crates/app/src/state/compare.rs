@@ -55,6 +55,10 @@ type Compared = Option<Arc<AuthoredTexture>>;
 #[derive(Clone, Debug)]
 pub struct Compare {
     keys: [u32; 2],
+    /// Keys that were chosen, or else the first ones: undo of a deletion brings them back.
+    chosen: [u32; 2],
+    /// Keys that the project stores, as of the last frame.
+    stored: Option<[u32; 2]>,
     /// Textures with these keys, as of the last frame.
     compared: [Compared; 2],
     heard: Option<Side>,
@@ -74,6 +78,8 @@ impl Compare {
         let x_is_a = random.uniform() < 0.5;
         Self {
             keys: [0, 0],
+            chosen: [0, 0],
+            stored: None,
             compared: [None, None],
             heard: None,
             is_blind: false,
@@ -91,9 +97,19 @@ impl Compare {
         Self::new(now.as_nanos() as u64)
     }
 
-    /// Updates the comparison to the project. A deleted texture is replaced by the first other one. If the sound of a
-    /// texture has changed, the answers are discarded.
+    /// Updates the comparison to the project. Textures that the project newly assigns to A and B take their sides. A deleted
+    /// texture is replaced by the first other one, until it comes back. If the sound of a texture has changed, the answers are
+    /// discarded.
     pub fn follow(&mut self, project: &Project) {
+        if self.stored != project.compared {
+            self.stored = project.compared;
+            self.chosen = project.compared.unwrap_or_default();
+            self.assign(self.chosen);
+        }
+        let is_there = |key: u32| project.authored.iter().any(|texture| texture.key == key);
+        if self.chosen[0] != self.chosen[1] && self.chosen.into_iter().all(is_there) {
+            self.assign(self.chosen);
+        }
         let texture = |key: u32| project.authored.iter().find(|texture| texture.key == key).cloned();
         let compared = self.keys.map(texture);
         let is_same = |(before, now): (&Compared, &Compared)| match (before, now) {
@@ -104,7 +120,6 @@ impl Compare {
             self.forget_answers();
         }
         self.compared = compared;
-        let is_there = |key: u32| project.authored.iter().any(|texture| texture.key == key);
         if self.keys.iter().all(|key| is_there(*key)) && self.keys[0] != self.keys[1] {
             return;
         }
@@ -115,6 +130,9 @@ impl Compare {
                 self.keys[side] = free.unwrap_or(0);
             }
         }
+        if self.chosen.contains(&0) {
+            self.chosen = self.keys;
+        }
         self.end();
         self.forget_answers();
     }
@@ -122,6 +140,11 @@ impl Compare {
     /// Whether there are two textures to compare.
     pub fn is_possible(&self) -> bool {
         self.keys[0] != self.keys[1] && self.keys.iter().all(|key| *key != 0)
+    }
+
+    /// Textures on both sides, as of the last frame.
+    pub fn textures(&self) -> impl Iterator<Item = &AuthoredTexture> {
+        self.compared.iter().flatten().map(Arc::as_ref)
     }
 
     /// Audible side, or `None` outside a comparison.
@@ -172,13 +195,26 @@ impl Compare {
         self.heard = None;
     }
 
-    /// Executes a command.
+    /// Keys on the sides A and B after the authored texture with this key is assigned to A or B. If it is on the other side,
+    /// the two textures swap sides.
+    pub fn assigned(&self, side: Side, key: u32) -> [u32; 2] {
+        let index = usize::from(side == Side::B);
+        let mut keys = self.keys;
+        if keys[1 - index] == key {
+            keys.swap(0, 1);
+        }
+        keys[index] = key;
+        keys
+    }
+
+    /// Executes a command, except that it assigns no side: an edit does.
     pub fn carry_out(&mut self, command: CompareCommand) {
         match command {
             CompareCommand::Hear(side) => {
                 self.heard = (self.heard != Some(side) && self.is_possible()).then_some(side);
             }
-            CompareCommand::Assign(side, key) => self.assign(side, key),
+            // The project stores the sides, and [`Compare::follow`] takes them over.
+            CompareCommand::Assign(..) => {}
             CompareCommand::SetBlind(is_blind) => {
                 self.is_blind = is_blind;
                 self.is_swapped = is_blind && self.random.uniform() < 0.5;
@@ -191,19 +227,12 @@ impl Compare {
         }
     }
 
-    fn assign(&mut self, side: Side, key: u32) {
-        let index = usize::from(side == Side::B);
-        if self.keys[index] == key {
-            return;
+    fn assign(&mut self, keys: [u32; 2]) {
+        if self.keys != keys {
+            self.keys = keys;
+            self.end();
+            self.forget_answers();
         }
-        if self.keys[1 - index] == key {
-            // The two textures swap sides.
-            self.keys.swap(0, 1);
-        } else {
-            self.keys[index] = key;
-        }
-        self.end();
-        self.forget_answers();
     }
 
     fn forget_answers(&mut self) {
@@ -233,6 +262,11 @@ mod tests {
         compare
     }
 
+    /// Assigns a texture of [`three`] to a side, as the window does.
+    fn assign(compare: &mut Compare, side: Side, key: u32) {
+        compare.follow(&edited(&three(), Edit::SetCompared(compare.assigned(side, key))));
+    }
+
     #[test]
     fn sides_are_heard_and_left() {
         let mut compare = compare(1);
@@ -244,9 +278,9 @@ mod tests {
         assert_eq!((compare.heard_key(), compare.is_hidden()), (Some(2), false));
         compare.carry_out(CompareCommand::Hear(Side::B));
         assert_eq!(compare.heard_key(), None);
-        compare.carry_out(CompareCommand::Assign(Side::A, 3));
+        assign(&mut compare, Side::A, 3);
         assert_eq!((compare.side_of(3), compare.side_of(1)), (Some(Side::A), None));
-        compare.carry_out(CompareCommand::Assign(Side::A, 2));
+        assign(&mut compare, Side::A, 2);
         assert_eq!(
             (compare.side_of(2), compare.side_of(3)),
             (Some(Side::A), Some(Side::B)),
@@ -271,8 +305,40 @@ mod tests {
         assert!((70..=130).contains(&n_first), "{n_first} of 200");
         assert_eq!(compare.answers(), (200, 180));
         assert!(compare.chance() < 1e-20);
-        compare.carry_out(CompareCommand::Assign(Side::B, 3));
+        assign(&mut compare, Side::B, 3);
         assert_eq!((compare.answers(), compare.chance()), ((0, 0), 1.0), "others are compared now");
+    }
+
+    #[test]
+    fn sides_that_the_project_stores_are_taken_over() {
+        let mut compare = compare(1);
+        let chosen = edited(&three(), Edit::SetCompared(compare.assigned(Side::B, 3)));
+        assert_eq!(chosen.compared, Some([1, 3]));
+        compare.follow(&chosen);
+        assert_eq!((compare.side_of(1), compare.side_of(3)), (Some(Side::A), Some(Side::B)));
+        let mut later = Compare::new(2);
+        later.follow(&chosen);
+        assert_eq!((later.side_of(1), later.side_of(3)), (Some(Side::A), Some(Side::B)), "in another window");
+        later.follow(&three());
+        assert_eq!((later.side_of(2), later.side_of(3)), (Some(Side::B), None), "undone");
+        later.follow(&edited(&chosen, Edit::Remove(3)));
+        assert_eq!(later.side_of(2), Some(Side::B), "what is gone is replaced");
+    }
+
+    /// Both the first ones and chosen ones.
+    #[test]
+    fn a_texture_that_comes_back_takes_its_side_again() {
+        for project in [three(), edited(&three(), Edit::SetCompared([1, 3]))] {
+            let mut compare = Compare::new(1);
+            compare.follow(&project);
+            let before = compare.keys;
+            for key in before {
+                compare.follow(&edited(&project, Edit::Remove(key)));
+                assert!(compare.is_possible() && compare.keys != before);
+                compare.follow(&project);
+                assert_eq!(compare.keys, before, "{key} is undone");
+            }
+        }
     }
 
     /// A new name keeps the answers; a new position discards them.

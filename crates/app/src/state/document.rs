@@ -218,6 +218,11 @@ impl Document {
         self.opening = Some((in_background(ctx.clone(), work), path));
     }
 
+    /// Discards the file that is being opened; returns its path, or `None` if there is none.
+    pub(crate) fn cancel_opening(&mut self) -> Option<PathBuf> {
+        self.opening.take().map(|(_, path)| path)
+    }
+
     /// Result of a completed operation, if any.
     pub(crate) fn collect(&mut self) -> Option<Came> {
         self.collect_saved().or_else(|| self.collect_opened())

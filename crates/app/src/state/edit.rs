@@ -1,6 +1,7 @@
 //! Edits of a project, and their names. The project changes in no other way, so that undo restores it exactly.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
@@ -17,13 +18,15 @@ use shagreen_formats::text_limits::{MAX_NAME, MAX_NOTES, begin_of};
 
 use crate::strings::edits as strings;
 use shagreen_studio::felt::join_felt;
+use shagreen_studio::height_map::{ReliefPlace, join_relief};
 
 /// Edit of a project. Unless stated otherwise, it applies to the selected authored texture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
     /// Moves the point to a position in the space and ends solo.
     MovePoint(SpacePoint),
-    /// Moves the point onto a texture of the library and solos the texture until the point moves again.
+    /// Makes the texture exactly one of the library: moves it there, in the mode Field, with this one as its only pin, with a
+    /// neutral shape, and without a path and a picture of its own. Ends solo.
     TakeTexture {
         /// Id of the texture.
         id: String,
@@ -86,8 +89,8 @@ pub enum Edit {
     RemoveSnapshot(usize),
     /// Sets the notes of the project.
     SetProjectNotes(String),
-    /// Opens another library. The points keep their positions. The space in use, axes, pins, names and stars of
-    /// textures, and solo belong to the previous library and are reset.
+    /// Opens another library. The points keep their positions, and their pins of textures that belong to them. The space in
+    /// use, axes, other pins, names and stars of textures, and solo belong to the previous library and are reset.
     OpenLibrary(ProjectLibrary),
     /// Embeds the library in the project.
     KeepLibraryInside(ProjectLibrary),
@@ -102,8 +105,24 @@ pub enum Edit {
         /// Texture that was simulated for it before, to be replaced.
         earlier: Option<Arc<TextureEntry>>,
     },
+    /// Adds a texture with a relief from a picture ([`join_relief`]).
+    AddRelief {
+        /// Texture with the relief.
+        entry: Arc<TextureEntry>,
+        /// Where it belongs.
+        place: ReliefPlace,
+    },
     /// Deletes an added texture, by its index among them.
     RemoveTexture(usize),
+    /// Lets an added texture take part only in the authored textures that pin it, or in all.
+    SetOwn {
+        /// Index among the added textures.
+        joined: usize,
+        /// Name of the texture.
+        name: String,
+        /// Whether it takes part only where it is pinned.
+        is_own: bool,
+    },
     /// Renames a texture of the list.
     RenameTexture {
         /// Id of the texture.
@@ -126,6 +145,8 @@ pub enum Edit {
     UseSpace(Arc<PlacedSpace>),
     /// Sets the attributes of the x axis and the y axis; `None` uses the positions.
     SetAxes(Option<[String; 2]>),
+    /// Sets the keys of the authored textures on the sides A and B of a comparison.
+    SetCompared([u32; 2]),
 }
 
 /// Kind of change of a path.
@@ -165,7 +186,7 @@ impl Edit {
         let name = &project.texture().name;
         match self {
             Self::MovePoint(_) => strings::moved(name).into(),
-            Self::TakeTexture { name, .. } => strings::taken(name).into(),
+            Self::TakeTexture { name: of, .. } => strings::taken(name, of).into(),
             Self::SetMode(_) => strings::CHANGE_BLEND.into(),
             Self::Lock { name, is_locked, .. } => crate::strings::lock(name, *is_locked).into(),
             Self::SetOutside(Outside::Clamped) => strings::STAY_WITHIN.into(),
@@ -195,19 +216,30 @@ impl Edit {
             Self::KeepLibraryInside(_) => strings::KEEP_INSIDE.into(),
             Self::AddTextures(_) => strings::ADD_TEXTURES.into(),
             Self::JoinSimulated { entry, .. } => crate::strings::prompt::simulated(&entry.name).into(),
+            Self::AddRelief { entry, place: ReliefPlace::InPlaceOf(_) } => {
+                strings::relief_of(project.renamed.get(&entry.id).unwrap_or(&entry.name)).into()
+            }
+            Self::AddRelief { entry, .. } => strings::authored(&entry.name).into(),
             Self::RemoveTexture(joined) => {
                 let name = |entry: &Arc<TextureEntry>| {
                     strings::removed_texture(project.renamed.get(&entry.id).unwrap_or(&entry.name))
                 };
                 project.joined.get(*joined).map_or_else(|| strings::removed_texture(""), name).into()
             }
+            Self::SetOwn { name, is_own, .. } => strings::used_where(name, *is_own).into(),
             Self::RenameTexture { name, .. } => strings::renamed_to(name).into(),
             Self::Star { name, is_starred, .. } => strings::starred(name, *is_starred).into(),
             Self::Solo(Some(_)) => strings::HEAR_ALONE.into(),
             Self::Solo(None) => strings::HEAR_BLEND.into(),
             Self::UseSpace(_) => strings::USE_SPACE.into(),
             Self::SetAxes(_) => strings::CHOOSE_AXES.into(),
+            Self::SetCompared(_) => strings::CHOOSE_COMPARED.into(),
         }
+    }
+
+    /// Whether a drag makes this edit, so that Escape during the drag reverts it.
+    pub(crate) fn is_dragged(&self) -> bool {
+        matches!(self, Self::MovePoint(_) | Self::SetShape(..) | Self::ChangePath(PathChange::MovePoint, _))
     }
 }
 
@@ -240,8 +272,14 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
             change(&mut project, |texture| texture.at = point);
         }
         Edit::TakeTexture { id, at, .. } => {
-            project.solo = Some(id);
-            change(&mut project, |texture| texture.at = at);
+            project.solo = None;
+            change(&mut project, |texture| {
+                (texture.at, texture.shape) = (at, Shape::default());
+                (texture.path, texture.picture) = (None, None);
+                texture.blend.mode = Mode::Field;
+                // Of two pins at one position, the other one may win.
+                texture.blend.locked = BTreeSet::from([id]);
+            });
         }
         Edit::SetMode(mode) => change(&mut project, |texture| texture.blend.mode = mode),
         Edit::Lock { id, is_locked, .. } => change(&mut project, |texture| {
@@ -294,12 +332,23 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         Edit::SetProjectNotes(notes) => project.notes = begin_of(notes, MAX_NOTES),
         Edit::OpenLibrary(library) => open(&mut project, library),
         Edit::KeepLibraryInside(library) => project.library = library,
-        Edit::AddTextures(entries) => project.joined.extend(entries),
+        Edit::AddTextures(entries) => project.add_textures(entries),
         Edit::JoinSimulated { key, entry, earlier } => join_felt(&mut project, key, entry, earlier.as_ref()),
+        Edit::AddRelief { entry, place } => join_relief(&mut project, entry, place),
         Edit::RemoveTexture(index) => {
             if index < project.joined.len() {
-                project.joined.remove(index);
+                let removed = project.joined.remove(index);
+                project.own.remove(&removed.id);
                 project.solo = None;
+            }
+        }
+        Edit::SetOwn { joined, is_own, .. } => {
+            if let Some(entry) = project.joined.get(joined) {
+                if is_own {
+                    project.own.insert(entry.id.clone());
+                } else {
+                    project.own.remove(&entry.id);
+                }
             }
         }
         Edit::RenameTexture { id, name } => drop(project.renamed.insert(id, begin_of(name, MAX_NAME))),
@@ -313,6 +362,7 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         Edit::Solo(id) => project.solo = id,
         Edit::UseSpace(space) => (project.space, project.axes) = (Some(space), None),
         Edit::SetAxes(axes) => project.axes = axes,
+        Edit::SetCompared(keys) => project.compared = Some(keys),
     }
     project
 }
@@ -345,7 +395,8 @@ fn restore(project: &mut Project, index: usize) {
     });
 }
 
-/// Opens a library and resets what belongs to the textures of the previous one.
+/// Opens a library and resets what belongs to the textures of the previous one. Pins of textures that belong to the points
+/// follow if the library needs other identifiers for these.
 fn open(project: &mut Project, library: ProjectLibrary) {
     if library == project.library {
         return;
@@ -354,92 +405,14 @@ fn open(project: &mut Project, library: ProjectLibrary) {
     (project.space, project.axes, project.solo) = (None, None, None);
     project.renamed.clear();
     project.starred.clear();
+    let own = &project.own;
     for texture in &mut project.authored {
-        if !texture.blend.locked.is_empty() {
-            Arc::make_mut(texture).blend.locked.clear();
+        if !texture.blend.locked.is_subset(own) {
+            Arc::make_mut(texture).blend.locked.retain(|id| own.contains(id));
         }
     }
+    project.follow_listed_ids();
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{Edit, edited};
-    use shagreen_core::space::SpacePoint;
-    use shagreen_core::texture::shape::{Shape, ShapeControl};
-    use shagreen_formats::built_in::BuiltIn;
-    use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
-
-    fn project() -> Project {
-        Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "Oak copy")
-    }
-
-    fn lock(id: &str, is_locked: bool) -> Edit {
-        Edit::Lock { id: id.to_owned(), name: "Oak".to_owned(), is_locked }
-    }
-
-    fn after(project: &Project, edits: impl IntoIterator<Item = Edit>) -> Project {
-        edits.into_iter().fold(project.clone(), |project, edit| edited(&project, edit))
-    }
-
-    #[test]
-    fn edits_are_named() {
-        let at = SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 };
-        assert_eq!(Edit::MovePoint(at).label(&project()), "Move Oak copy");
-        assert_eq!(lock("oak", true).label(&project()), "Pin Oak");
-        assert_eq!(lock("oak", false).label(&project()), "Unpin Oak");
-        assert_eq!(Edit::Remove(1).label(&project()), "Delete Oak copy");
-    }
-
-    #[test]
-    fn a_lock_ends_with_its_library() {
-        let project = project();
-        let locked = after(&project, [lock("oak", true), lock("oak", true)]);
-        assert_eq!(locked.texture().blend.locked.len(), 1);
-        assert_eq!(after(&locked, [lock("oak", false)]), project);
-        let opened = after(&locked, [Edit::OpenLibrary(ProjectLibrary::BuiltIn(BuiltIn::Simulated))]);
-        assert!(opened.texture().blend.locked.is_empty());
-        let same = after(&locked, [Edit::OpenLibrary(locked.library.clone())]);
-        assert_eq!(same, locked, "opening what is open changes nothing");
-    }
-
-    #[test]
-    fn a_shape_is_limited_to_its_ranges_and_reset_at_once() {
-        let project = after(&project(), [Edit::Solo(Some("oak".to_owned()))]);
-        let edits = [Edit::SetShape(ShapeControl::Grain, 2.0), Edit::SetShape(ShapeControl::Level, 99.0)];
-        let shaped = after(&project, edits);
-        let expected = Shape { grain: 2.0, level_db: 12.0, ..Shape::default() };
-        assert_eq!((shaped.texture().shape, &shaped.solo), (expected, &None));
-        assert_eq!(Edit::SetShape(ShapeControl::Grain, 2.0).label(&project), "Change grain size of Oak copy");
-        assert_eq!(Edit::ResetShape.label(&project), "Reset shape of Oak copy");
-        let kinds = [ShapeControl::Grain, ShapeControl::Level].map(|of| Edit::SetShape(of, 1.0).kind());
-        assert_ne!(kinds[0], kinds[1], "two controls are two steps");
-        let kept = after(&shaped, [Edit::KeepSnapshot, Edit::ResetShape]);
-        assert!(kept.texture().shape.is_neutral());
-        assert_eq!(after(&kept, [Edit::RestoreSnapshot(0)]).texture().shape, expected);
-    }
-
-    #[test]
-    fn authored_textures_come_and_go() {
-        let one = project();
-        let two = after(&one, [Edit::Author(AuthoredTexture::new(0, "Felt"))]);
-        assert_eq!((two.authored.len(), two.texture().name.as_str(), two.texture().key), (2, "Felt", 2));
-        let first = after(&two, [Edit::Select(1)]);
-        assert_eq!(first.texture().name, "Oak copy");
-        let left = after(&two, [Edit::Remove(2)]);
-        assert_eq!(left, one);
-        assert_eq!(after(&left, [Edit::Remove(1)]), left, "the last one stays");
-        let gone = after(&first, [Edit::Remove(1)]);
-        assert_eq!((gone.selected, gone.texture().key), (0, 2));
-    }
-
-    #[test]
-    fn a_snapshot_brings_a_state_back_but_not_its_name() {
-        let at = SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 };
-        let kept = after(&project(), [Edit::KeepSnapshot]);
-        let moved =
-            after(&kept, [Edit::MovePoint(at), Edit::Rename("New".to_owned()), Edit::RestoreSnapshot(0)]);
-        assert_eq!((moved.texture().at, moved.texture().name.as_str()), (project().texture().at, "New"));
-        assert_eq!(after(&kept, [Edit::RemoveSnapshot(0)]), project());
-        assert_eq!(after(&kept, [Edit::RestoreSnapshot(9), Edit::RemoveSnapshot(9)]), kept);
-    }
-}
+mod tests;

@@ -63,8 +63,8 @@ pub(crate) struct Files {
     pub(crate) is_closing: bool,
     /// Purpose of the file being read.
     reading: Reading,
-    /// Folder of all files that Shagreen keeps for the user.
-    own_folder: Option<PathBuf>,
+    /// Paths of the files that outlive the program.
+    pub(crate) keeping: StoragePaths,
     /// Whether the desktop asks for reduced motion.
     desktop_reduces_motion: bool,
 }
@@ -72,13 +72,13 @@ pub(crate) struct Files {
 impl Files {
     /// Files of a new project, or of one that was read from `path`.
     pub(crate) fn new(project: &Project, file: Option<DocumentFile>, keeping: StoragePaths) -> Self {
-        let (settings_file, mut settings) = SettingsFile::open(keeping.settings);
+        let (settings_file, mut settings) = SettingsFile::open(keeping.settings.clone());
         if let Some(file) = &file {
             settings.note_project(&file.path);
         }
         let (mut recovery, mut problem) = (None, None);
-        if let Some(folder) = keeping.recovery {
-            match Recovery::new(&folder) {
+        if let Some(folder) = &keeping.recovery {
+            match Recovery::new(folder) {
                 Ok(slot) => recovery = Some(slot),
                 Err(error) => problem = Some(strings::no_recovery(&error.to_string())),
             }
@@ -95,8 +95,8 @@ impl Files {
             saves_again: false,
             is_closing: false,
             reading: Reading::default(),
-            own_folder: keeping.own,
             desktop_reduces_motion: keeping.desktop.as_deref().is_some_and(desktop_motion::reduces_motion),
+            keeping,
         }
     }
 
@@ -156,7 +156,7 @@ impl Files {
     pub(crate) fn open(&mut self, path: PathBuf, reading: Reading, ctx: &Context) {
         self.reading = reading;
         let mut places = self.settings.libraries_of(&path);
-        places.extend(self.own_folder.clone());
+        places.extend(self.keeping.own.clone());
         self.document.open(path, Permitted::Only(places), ctx);
     }
 
@@ -170,6 +170,12 @@ impl Files {
     ) {
         self.reading = reading;
         self.document.open_on(path, library, ctx);
+    }
+
+    /// Discards the file that is being opened; returns its path, or `None` if there is none.
+    pub(crate) fn cancel_opening(&mut self) -> Option<PathBuf> {
+        self.reading = Reading::default();
+        self.document.cancel_opening()
     }
 
     /// Purpose of the file that was read last.

@@ -1,7 +1,8 @@
 //! Undo and redo by snapshots, one step per gesture.
 //!
 //! Snapshots share the large parts of a project, so they are cheap and need no inverse edits. Edits of one kind within
-//! one gesture (one drag, one held key, one visit of a text field) form one step, and so do consecutive selections.
+//! one gesture (one drag, one held key, one visit of a text field) form one step, and so do consecutive selections and
+//! consecutive solos: listening to several textures is one step.
 //! Limitation: the oldest steps are dropped beyond [`MAX_STEPS`].
 
 use std::borrow::Cow;
@@ -23,6 +24,8 @@ struct Step {
     kind: EditKind,
     project: Project,
     gesture: Gesture,
+    /// Whether a drag made the edit.
+    is_dragged: bool,
 }
 
 /// Undo and redo steps of a project.
@@ -30,6 +33,8 @@ struct Step {
 pub struct History {
     past: Vec<Step>,
     future: Vec<Step>,
+    /// Undone steps that the last step has cleared, if a drag made it: they come back when it is abandoned.
+    cleared: Vec<Step>,
     revision: u64,
 }
 
@@ -37,7 +42,8 @@ impl History {
     /// Applies an edit to `project` and records the previous state.
     pub fn apply(&mut self, project: &mut Project, edit: Edit, gesture: Gesture) {
         let (label, kind) = (edit.label(project), edit.kind());
-        let is_selection = matches!(edit, Edit::Select(_));
+        let is_selection = matches!(edit, Edit::Select(_) | Edit::Solo(_));
+        let is_dragged = edit.is_dragged();
         let after = edited(project, edit);
         if after == *project {
             return;
@@ -46,19 +52,42 @@ impl History {
         if continued.is_some_and(|s| s.project == after) {
             // A drag that returns to its start is not a step.
             self.past.pop();
+            self.future = std::mem::take(&mut self.cleared);
         } else if continued.is_none() {
-            self.past.push(Step { label, kind, project: project.clone(), gesture });
+            let cleared = std::mem::take(&mut self.future);
+            self.cleared = if is_dragged { cleared } else { Vec::new() };
+            self.past.push(Step { label, kind, project: project.clone(), gesture, is_dragged });
             if self.past.len() > MAX_STEPS {
                 self.past.remove(0);
             }
+        } else {
+            self.future.clear();
         }
-        self.future.clear();
         self.revision += 1;
         *project = after;
     }
 
+    /// Applies an edit as a part of the last step, with which it is undone.
+    pub fn add_to_last(&mut self, project: &mut Project, edit: Edit) {
+        *project = edited(project, edit);
+        self.future.clear();
+        self.revision += 1;
+    }
+
+    /// Reverts what a drag has done in this gesture, also to the undone steps, and forgets it. Returns whether there was
+    /// anything.
+    pub fn abandon_drag(&mut self, project: &mut Project, gesture: Gesture) -> bool {
+        let is_of_drag = |step: &mut Step| step.is_dragged && step.gesture == gesture;
+        let Some(step) = self.past.pop_if(is_of_drag) else { return false };
+        *project = step.project;
+        self.future = std::mem::take(&mut self.cleared);
+        self.revision += 1;
+        true
+    }
+
     /// Undoes the last step. Returns whether there was one.
     pub fn undo(&mut self, project: &mut Project) -> bool {
+        self.cleared.clear();
         let is_done = Self::travel(&mut self.past, &mut self.future, project);
         self.revision += u64::from(is_done);
         is_done
@@ -66,15 +95,16 @@ impl History {
 
     /// Redoes the last undone step. Returns whether there was one.
     pub fn redo(&mut self, project: &mut Project) -> bool {
+        self.cleared.clear();
         let is_done = Self::travel(&mut self.future, &mut self.past, project);
         self.revision += u64::from(is_done);
         is_done
     }
 
     fn travel(from: &mut Vec<Step>, to: &mut Vec<Step>, project: &mut Project) -> bool {
-        let Some(step) = from.pop() else { return false };
-        let now = std::mem::replace(project, step.project);
-        to.push(Step { label: step.label, kind: step.kind, project: now, gesture: step.gesture });
+        let Some(mut step) = from.pop() else { return false };
+        std::mem::swap(project, &mut step.project);
+        to.push(step);
         true
     }
 
@@ -108,6 +138,7 @@ mod tests {
     use shagreen_formats::built_in::BuiltIn;
     use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
     use shagreen_formats::starter::starter_library;
+    use shagreen_studio::height_map::ReliefPlace;
 
     fn begin() -> (History, Project) {
         (History::default(), Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "New texture"))
@@ -142,6 +173,72 @@ mod tests {
             history.apply(&mut project, edit, Gesture(1));
         }
         assert_eq!(history.undo_label(), None);
+    }
+
+    #[test]
+    fn a_drag_that_is_abandoned_leaves_nothing() {
+        let (mut history, mut project) = begin();
+        history.apply(&mut project, point(9.0), Gesture(1));
+        let start = project.clone();
+        for rs in [1.0, 2.0] {
+            history.apply(&mut project, point(rs), Gesture(2));
+        }
+        assert!(!history.abandon_drag(&mut project, Gesture(3)), "another gesture");
+        assert!(history.abandon_drag(&mut project, Gesture(2)));
+        assert_eq!((&project, history.redo_label()), (&start, None));
+        history.apply(&mut project, Edit::Rename("Oak".to_owned()), Gesture(4));
+        assert!(!history.abandon_drag(&mut project, Gesture(4)), "typing is no drag");
+    }
+
+    /// Escape, or a drag back to the start.
+    #[test]
+    fn a_drag_without_effect_keeps_what_was_undone() {
+        for is_abandoned in [true, false] {
+            let (mut history, mut project) = begin();
+            history.apply(&mut project, Edit::Rename("Oak".to_owned()), Gesture(1));
+            let renamed = project.clone();
+            assert!(history.undo(&mut project));
+            let start = project.texture().at;
+            for edit in [point(1.0), point(2.0)] {
+                history.apply(&mut project, edit, Gesture(2));
+            }
+            assert_eq!(history.redo_label(), None, "not during the drag");
+            if is_abandoned {
+                assert!(history.abandon_drag(&mut project, Gesture(2)));
+            } else {
+                history.apply(&mut project, Edit::MovePoint(start), Gesture(2));
+            }
+            assert!(history.redo(&mut project));
+            assert_eq!(project, renamed, "{is_abandoned}");
+            assert!(!history.redo(&mut project) && history.undo(&mut project));
+            // A drag that stays ends it.
+            history.apply(&mut project, point(3.0), Gesture(3));
+            history.apply(&mut project, Edit::SetMode(Mode::Paper), Gesture(4));
+            assert!(!history.abandon_drag(&mut project, Gesture(4)) && !history.redo(&mut project));
+        }
+    }
+
+    #[test]
+    fn what_is_added_to_a_step_is_undone_with_it() {
+        let (mut history, mut project) = begin();
+        let start = project.clone();
+        history.apply(&mut project, point(9.0), Gesture(1));
+        history.add_to_last(&mut project, Edit::Rename("Oak".to_owned()));
+        let both = project.clone();
+        assert!(history.undo(&mut project) && !history.undo(&mut project));
+        assert_eq!(project, start);
+        assert!(history.redo(&mut project));
+        assert_eq!(project, both);
+    }
+
+    #[test]
+    fn listening_to_several_textures_is_one_step() {
+        let (mut history, mut project) = begin();
+        let start = project.clone();
+        for (gesture, id) in [Some("cork"), Some("oak"), None].into_iter().enumerate() {
+            history.apply(&mut project, Edit::Solo(id.map(str::to_owned)), Gesture(gesture as u64));
+        }
+        assert_eq!((&project, history.undo_label()), (&start, None), "back where it began");
     }
 
     #[test]
@@ -196,7 +293,7 @@ mod tests {
         let key = project.authored[(number >> 20) as usize % project.authored.len()].key;
         let (id, name, is_on) = (format!("id{}", number >> 61), format!("{share}"), number & 64 == 0);
         let built_in = BuiltIn::ALL[(number >> 50) as usize % 2];
-        match (number >> 33) % 29 {
+        match (number >> 33) % 34 {
             0..=3 => Edit::MovePoint(at),
             4 => Edit::SetMode(Mode::ALL[(number >> 50) as usize % 5]),
             5 => Edit::Lock { id, name, is_locked: is_on },
@@ -230,6 +327,16 @@ mod tests {
             24 => Edit::Star { id, name, is_starred: is_on },
             26 => Edit::SetShape(ShapeControl::ALL[(number >> 50) as usize % 7], 4.0 * share),
             27 => Edit::ResetShape,
+            28 => Edit::SetOwn { joined: (number >> 55) as usize % 4, name, is_own: is_on },
+            29 => Edit::TakeTexture { id, name, at },
+            30 => {
+                let index = (number >> 55) as usize % 4;
+                let places = [ReliefPlace::Added, ReliefPlace::InPlaceOf(index), ReliefPlace::Pinned(key)];
+                let place = places[(number >> 50) as usize % 3];
+                Edit::AddRelief { entry: Arc::clone(joined), place }
+            }
+            31 => Edit::SetCompared([key, (number >> 61) as u32]),
+            32 => Edit::Solo(is_on.then_some(id)),
             _ => Edit::RenameTexture { id, name },
         }
     }
@@ -249,7 +356,7 @@ mod tests {
                 history.apply(&mut project, edit, Gesture(i / 3));
                 assert!(project.selected < project.authored.len());
             }
-            assert!(sorts.len() >= 20, "the control: {} sorts of edits", sorts.len());
+            assert!(sorts.len() >= 24, "the control: {} sorts of edits", sorts.len());
             let end = project.clone();
             assert_ne!(start, end);
             while history.undo(&mut project) {}

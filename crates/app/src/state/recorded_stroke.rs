@@ -138,8 +138,7 @@ fn walked(contacts: &[TimedContact]) -> Vec<PenSample> {
     for pair in contacts.windows(2) {
         let [from, to] = [pair[0], pair[1]];
         let secs = to.time_secs - from.time_secs;
-        // A contact begins between two contacts of the table, and either may state its impact speed.
-        let impact_mps = [from.impact_mps, to.impact_mps].into_iter().flatten().reduce(f64::max);
+        let impact_mps = from.impact_mps_before(&to);
         let n_steps = (secs / WALK_STEP_SECS).ceil().max(1.0);
         for step in 0..n_steps as u32 {
             let mix = |a: f64, b: f64, steps: f64| a + steps / n_steps * (b - a);
@@ -216,6 +215,12 @@ impl StrokeReader {
             bytes.and_then(|bytes| RecordedStroke::read(&bytes, map)).with_context(|| source.name())
         };
         self.reading = Some(in_background(ctx.clone(), work));
+    }
+
+    /// Discards the stroke that is being read; returns whether there is one.
+    pub(crate) fn cancel(&mut self) -> bool {
+        self.note = None;
+        self.reading.take().is_some()
     }
 
     /// The stroke with its warnings, or the error, when reading is complete.

@@ -13,6 +13,8 @@ pub(crate) const LONGEST_SECS: f64 = 60.0;
 const HOLE_SECS: f64 = 0.03;
 /// Maximum time step of interpolated samples, in seconds.
 const FILL_SECS: f64 = 0.01;
+/// Time in the air before the first touch, in seconds: a stroke that starts in contact would have no landing.
+const AIR_SECS: f64 = 0.01;
 /// Maximum time in seconds from a pen tap on a button until the window handles it; a longer touch is no click.
 const TAP_SECS: f64 = 0.9;
 /// Maximum movement of the pen during such a tap, in m.
@@ -38,6 +40,8 @@ pub(crate) struct Recorder {
     pen_ahead_secs: Option<f64>,
     /// Time when a pen was last in range, in seconds.
     pen_near_secs: f64,
+    /// Whether the stylus was in the air before its first touch.
+    lands: bool,
 }
 
 impl Recorder {
@@ -48,6 +52,7 @@ impl Recorder {
             stylus: Stylus::Mouse,
             pen_ahead_secs: None,
             pen_near_secs: f64::NEG_INFINITY,
+            lands: false,
         }
     }
 
@@ -109,6 +114,10 @@ impl Recorder {
             if touching {
                 self.samples.push(sample);
                 self.stylus = stylus;
+                // A mouse reports only while it is pressed, and it has pressed the button that started the recording.
+                self.lands |= stylus == Stylus::Mouse;
+            } else {
+                self.lands = true;
             }
             return;
         };
@@ -157,11 +166,17 @@ impl Recorder {
         }
     }
 
-    /// Samples from the first touch to the last lift, with times from zero. `None` if nothing touched.
+    /// Samples from the landing of the first touch to the last lift, with times from zero. `None` if nothing touched.
     pub(crate) fn finish(mut self) -> Option<Vec<PenSample>> {
-        let start_secs = self.samples.first()?.time_secs;
+        let first = *self.samples.first()?;
         let last_touch = self.samples.iter().rposition(|sample| sample.touching)?;
         self.samples.truncate(last_touch + 2);
+        let mut start_secs = first.time_secs;
+        if self.lands {
+            start_secs -= AIR_SECS;
+            let in_air = PenSample { force_n: 0.0, touching: false, impact_mps: None, ..first };
+            self.samples.insert(0, PenSample { time_secs: start_secs, ..in_air });
+        }
         for sample in &mut self.samples {
             sample.time_secs -= start_secs;
         }
@@ -171,7 +186,7 @@ impl Recorder {
 
 #[cfg(test)]
 mod tests {
-    use super::{FILL_SECS, LONGEST_SECS, PenSample, Recorder, Stylus, TrackedSample};
+    use super::{AIR_SECS, FILL_SECS, LONGEST_SECS, PenSample, Recorder, Stylus, TrackedSample};
     use shagreen_device::hid::pen::PenReport;
     use shagreen_device::touch::Touch;
 
@@ -179,13 +194,18 @@ mod tests {
         PenSample { time_secs, x_m, force_n: 0.5, touching, ..PenSample::default() }
     }
 
+    /// Times since the first touch and contacts of a recording, from its first touch on.
     fn recorded(samples: &[(Stylus, f64, bool)]) -> Vec<(f64, bool)> {
         let mut recorder = Recorder::new();
         for (stylus, time_secs, touching) in samples {
             recorder.take(*stylus, sample(*time_secs, 0.1 * time_secs, *touching));
         }
         let samples = recorder.finish().unwrap_or_default();
-        samples.iter().map(|s| (s.time_secs, s.touching)).collect()
+        let from = samples.iter().position(|s| s.touching).unwrap_or(0);
+        let start_secs = samples.get(from).map_or(0.0, |s| s.time_secs);
+        // To nanoseconds, because the shift of the times is subject to rounding.
+        let secs = |s: &PenSample| ((s.time_secs - start_secs) * 1e9).round() / 1e9;
+        samples[from..].iter().map(|s| (secs(s), s.touching)).collect()
     }
 
     #[test]
@@ -199,6 +219,23 @@ mod tests {
     }
 
     #[test]
+    fn a_recording_lands_unless_the_tip_touched_from_its_beginning() {
+        let begin = |samples: &[(Stylus, f64, bool)]| {
+            let mut recorder = Recorder::new();
+            for (stylus, time_secs, touching) in samples {
+                recorder.take(*stylus, sample(*time_secs, 0.0, *touching));
+            }
+            let kept = recorder.finish().unwrap();
+            kept[..2].iter().map(|s| ((s.time_secs * 1e9).round() / 1e9, s.touching)).collect::<Vec<_>>()
+        };
+        let landed = [(0.0, false), (AIR_SECS, true)];
+        assert_eq!(begin(&[(Stylus::Mouse, 1.0, true), (Stylus::Mouse, 1.02, true)]), landed);
+        assert_eq!(begin(&[(Stylus::Pen, 0.5, false), (Stylus::Pen, 1.0, true)]), landed);
+        let pressed = [(Stylus::Pen, 1.0, true), (Stylus::Pen, 1.02, true)];
+        assert_eq!(begin(&pressed), [(0.0, true), (0.02, true)]);
+    }
+
+    #[test]
     fn a_window_that_was_busy_is_no_lift() {
         use Stylus::Mouse;
         let mut recorder = Recorder::new();
@@ -206,9 +243,11 @@ mod tests {
         recorder.take(Mouse, sample(0.2, 0.02, true));
         recorder.take(Mouse, sample(0.3, 0.02, false));
         let kept = recorder.finish().unwrap();
-        assert_eq!(kept.len(), 22);
-        assert!(kept[..21].windows(2).all(|pair| pair[1].time_secs - pair[0].time_secs <= FILL_SECS + 1e-12));
-        assert!(kept[..21].iter().all(|s| s.touching && (s.x_m - 0.1 * s.time_secs).abs() < 1e-12));
+        assert_eq!(kept.len(), 23);
+        let held = &kept[1..22];
+        assert!(held.windows(2).all(|pair| pair[1].time_secs - pair[0].time_secs <= FILL_SECS + 1e-12));
+        let x_m = |s: &PenSample| 0.1 * (s.time_secs - AIR_SECS);
+        assert!(held.iter().all(|s| s.touching && (s.x_m - x_m(s)).abs() < 1e-12));
         // A stylus that sends nothing for seconds has left, so the gap is not filled.
         assert_eq!(recorded(&[(Mouse, 0.0, true), (Mouse, 5.0, true)]), [(0.0, true), (5.0, true)]);
     }
@@ -252,7 +291,8 @@ mod tests {
             recorder.drop_tap();
             let mut kept = recorder.finish().unwrap();
             // Ignores interpolated samples.
-            let given: Vec<f64> = stroke.iter().chain(&tap).map(|given| given.0 + 3.0).collect();
+            let first_secs = kept.iter().find(|sample| sample.touching).unwrap().time_secs;
+            let given: Vec<f64> = stroke.iter().chain(&tap).map(|given| given.0 + 3.0 + first_secs).collect();
             kept.retain(|sample| given.iter().any(|secs| (secs - sample.time_secs).abs() < 1e-9));
             assert_eq!(kept.len(), n_kept, "{stylus:?} {tap:?}");
         }
@@ -293,10 +333,15 @@ mod tests {
         let of = |s: &PenSample| (s.x_m, s.y_m, s.force_n, s.touching);
         assert_eq!(
             kept.iter().map(of).collect::<Vec<_>>(),
-            [(0.0, 0.0, 0.7, true), (1e-3, 2e-3, 0.7, true), (1e-3, 2e-3, 0.7, false)],
-            "out of range it is lifted where it was"
+            [
+                (0.0, 0.0, 0.0, false),
+                (0.0, 0.0, 0.7, true),
+                (1e-3, 2e-3, 0.7, true),
+                (1e-3, 2e-3, 0.7, false)
+            ],
+            "it lands, and out of range it is lifted where it was"
         );
-        for (sample, expected) in kept.iter().zip([0.0, 0.01, 0.02]) {
+        for (sample, expected) in kept.iter().zip([0.0, 0.01, 0.02, 0.03]) {
             assert!((sample.time_secs - expected).abs() < 1e-9);
         }
     }

@@ -7,9 +7,9 @@ use std::sync::Arc;
 use shagreen_core::space::texture_path::TexturePath;
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::plane::Plane;
-use shagreen_core::texture::render::RenderError;
+use shagreen_core::texture::render::{Hand, RenderError};
 use shagreen_core::texture::tap::Tap;
-use shagreen_core::units::{Contact, Hertz, MetersPerSecond, Newtons};
+use shagreen_core::units::{Contact, Hertz};
 use shagreen_device::track::Track;
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::wav::{SidecarV1, TraceV1, is_sidecar, sidecar_path, write_wav_as};
@@ -17,7 +17,7 @@ use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
 use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
 use shagreen_studio::replace::is_own_signal;
 use shagreen_studio::tap_transients::add_tap_transients;
-use shagreen_studio::trace::{steady_trace, stroke_trace};
+use shagreen_studio::trace::{TrackHand, steady_trace, track_trace};
 
 use crate::state::bench_signal::BenchSignal;
 use crate::strings::export as strings;
@@ -133,11 +133,15 @@ impl SignalFile {
         let rate = Hertz(f64::from(options.rate_hz));
         let loops = options.loops && stroke.is_none();
         let format = SampleFormat { rate, seconds: self.seconds(options), seed: SIGNAL_SEED, loops };
-        let mut contact_at = |secs: f64| stroke.map_or(self.contact, |track| contact_of(track, secs));
+        let (mut recorded, mut steady) = (stroke.map(TrackHand), |_: f64| self.contact);
+        let hand: &mut dyn Hand = match &mut recorded {
+            Some(recorded) => recorded,
+            None => &mut steady,
+        };
         let rendered: Result<Vec<f32>, RenderError> = match &self.sounding {
             Sounding::Bench(signal) => Ok(signal.at(rate).into_iter().map(|x| x as f32).collect()),
-            Sounding::Path(path) => render_along(path, format, &mut contact_at),
-            Sounding::Mix(voices, mode) => render_mixture(voices, *mode, format, &mut contact_at),
+            Sounding::Path(path) => render_along(path, format, hand),
+            Sounding::Mix(voices, mode) => render_mixture(voices, *mode, format, hand),
         };
         let mut samples = rendered.map_err(|error| error.to_string())?;
         if let (Some(track), Some(tap)) = (stroke, self.tap) {
@@ -156,7 +160,7 @@ impl SignalFile {
     /// Speed and force over time, for the sidecar.
     fn trace(&self, options: &SignalOptions) -> TraceV1 {
         match self.stroke(options) {
-            Some(track) => stroke_trace(track.duration_secs(), |secs| contact_of(track, secs)),
+            Some(track) => track_trace(track),
             None => steady_trace(self.contact, self.seconds(options)),
         }
     }
@@ -172,14 +176,5 @@ impl SignalFile {
             Ok(beside) => is_sidecar(&beside),
             Err(error) => error.kind() == ErrorKind::NotFound,
         }
-    }
-}
-
-/// Speed and force of a recorded stroke.
-fn contact_of(track: &Track, secs: f64) -> Contact {
-    let contact = track.touch_at(secs).contact;
-    Contact {
-        speed: MetersPerSecond(f64::from(contact.speed_mps)),
-        force: Newtons(f64::from(contact.force_n)),
     }
 }

@@ -5,7 +5,8 @@ pub const HELP: &str = "Authored textures of this project: each is a point of th
 pub const ADD: &str = "Add";
 pub const ADD_HELP: &str = "Adds a texture at the center of the space, with the interpolation mode and options of the selected texture";
 pub const DUPLICATE: &str = "Duplicate";
-pub const DUPLICATE_HELP: &str = "Adds a copy of this texture, slightly offset in the space";
+pub const DUPLICATE_HELP: &str =
+    "Adds an exact copy of this texture at the same position. Both points are drawn side by side.";
 pub const DELETE: &str = "Delete";
 pub const RENAME: &str = "Rename…";
 pub const RENAME_HELP: &str = "Selects this texture and its name, above the sliders.";
@@ -65,6 +66,11 @@ pub fn color(index: usize) -> String {
 /// Accessible name of a snapshot; numbers start at 1.
 pub fn snapshot(number: usize, name: &str) -> String {
     format!("Snapshot {number}: {name}")
+}
+
+/// Notice that a key has deleted an authored texture; `keys` are those of undo.
+pub fn deleted(name: &str, keys: &str) -> String {
+    format!("{name} deleted. Undo: {keys}")
 }
 
 pub fn delete_snapshot(number: usize) -> String {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use shagreen_core::people::mds::Ties;
+use shagreen_core::people::mds::Transform;
 use shagreen_core::people::ratings::{Rating, RelevanceVote};
 use shagreen_core::people::sorting::Sort;
 use shagreen_core::space::selection::Method;
@@ -21,6 +21,11 @@ pub const RATINGS_HELP: &str =
     "CSV table of ratings of each texture between two opposite adjectives, 0 to 100. Required.";
 pub const VOTES_HELP: &str =
     "CSV table of the adjectives that participants found relevant. Without it, all adjectives are used.";
+pub const SCALE_LOW: &str = "Lowest rating of the scale";
+pub const SCALE_HIGH: &str = "Highest rating of the scale";
+pub const SCALE_HELP: &str = "Lowest and highest rating that participants could give, such as 1 and 7. Ratings are converted to 0 to 100.";
+pub const ASSUMED_PEOPLE: &str =
+    "The participants are assumed to be people. Simulated raters must be named simulated-01 and so on.";
 pub const PATH_HINT: &str = "Path of a CSV file…";
 pub const SAVE: &str = "Save";
 
@@ -42,7 +47,7 @@ pub const OPTIONS: &str = "Options";
 pub const DIMENSIONS: &str = "Dimensions";
 pub const DIMENSIONS_HELP: &str = "Number of dimensions of the perceptual space (multidimensional scaling). More dimensions lower the stress and fit the adjectives better.";
 pub const TIES: &str = "Ties";
-pub const TIES_HELP: &str = "Treatment of texture pairs with equal similarity: primary lets their distances differ, secondary makes their distances equal.";
+pub const TIES_HELP: &str = "Treatment of texture pairs with equal similarity: primary lets their distances differ, secondary makes their distances equal. Interval makes all distances a linear function of the dissimilarities (metric scaling). Automatic is primary, or interval if the solution of primary is degenerate.";
 pub const FIRST_AXIS: &str = "X axis";
 pub const SECOND_AXIS: &str = "Y axis";
 pub const AXIS_HELP: &str = "Adjective pair that becomes this axis. Automatic takes rough to smooth and hard to soft if they were rated, else the pair that correlates best with each dimension.";
@@ -184,11 +189,8 @@ pub fn step(step: Step) -> String {
     format!("{} of {}: {what}", step.index() + 1, Step::COUNT)
 }
 
-pub fn ties(ties: Ties) -> &'static str {
-    match ties {
-        Ties::Primary => "primary",
-        Ties::Secondary => "secondary",
-    }
+pub fn ties(ties: Option<Transform>) -> &'static str {
+    ties.map_or(AUTOMATIC, Transform::id)
 }
 
 pub fn features(kind: FeatureKind) -> &'static str {

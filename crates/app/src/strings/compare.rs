@@ -5,7 +5,7 @@ pub const HELP: &str = "ABX comparison of two authored textures under the same s
 pub const BLIND: &str = "Blind";
 pub const BLIND_HELP: &str =
     "Assigns the two textures to A and B at random and hides the assignment, until you clear this box";
-pub const HIDDEN: &str = "Hidden: blind comparison";
+pub const HIDDEN: &str = "Hidden (blind)";
 pub const EDIT: &str = "Edit";
 pub const EDIT_HELP: &str = "Ends the comparison and selects this texture, so that you can edit it.";
 pub const END: &str = "End comparison";

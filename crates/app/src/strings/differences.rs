@@ -1,6 +1,6 @@
 //! Differences of two signals: their features and the predicted discriminability.
 
-use shagreen_core::signals::quality::Feature;
+use shagreen_core::signals::quality::{Feature, MOST_D_PRIME, Relation};
 
 use crate::choices::signals::Slot;
 use crate::strings::digits::three_digits;
@@ -17,8 +17,12 @@ pub const FEATURE_COLUMNS_HELP: [&str; 4] = [
 ];
 
 /// Title of the table of features.
-pub fn features_title(d_prime: f64) -> String {
-    format!("Features of A and B: predicted d' {}", three_digits(d_prime))
+pub fn features_title(d_prime: f64, relation: Relation) -> String {
+    match relation {
+        Relation::Processed => format!("Features of A and B: predicted d' {}", shown(d_prime)),
+        Relation::DifferentNoise => "Features of A and B: different noise, no predicted d'".to_owned(),
+        Relation::Unrelated => "Features of A and B: different signals, no predicted d'".to_owned(),
+    }
 }
 
 /// Source of the table of features: both signals and the model, one a line.
@@ -31,27 +35,42 @@ pub fn named(slot: Slot, name: &str) -> String {
     format!("{}: {name}", slot.name())
 }
 
-pub fn d_prime(d_prime: f64) -> String {
-    format!("d' {}", three_digits(d_prime))
-}
-
-/// Sentence about the proportion of correct answers, 0.5 to 1.
-pub fn answers(proportion: f64) -> String {
-    // Rounded to tens of percent: the model is not more accurate.
-    let n_of_10 = (10.0 * proportion).round();
-    let predicted = "Predicted from the signals, not rated by people.";
-    if n_of_10 >= 10.0 {
-        format!("Nearly every answer to \"same or different?\" would be correct. {predicted}")
-    } else if n_of_10 <= 5.0 {
-        format!(
-            "About 5 of 10 answers to \"same or different?\" would be correct, as many as by guessing. {predicted}"
-        )
-    } else {
-        format!("About {n_of_10} of 10 answers to \"same or different?\" would be correct. {predicted}")
+/// Predicted d', or why there is none.
+pub fn d_prime(d_prime: f64, relation: Relation) -> String {
+    match relation {
+        Relation::Processed => format!("d' {}", shown(d_prime)),
+        Relation::DifferentNoise => "different noise".to_owned(),
+        Relation::Unrelated => "no d'".to_owned(),
     }
 }
 
-pub const D_PRIME_HELP: &str = "Predicted discriminability of A and B: d' = z(H) - z(F), in standard deviations. At d' = 1, an unbiased observer answers 69 % correctly. A model with published weights predicts d'; no one has rated these signals. Use it for a signal and a processed version of it. Two strokes on the same texture give a large d' although they feel alike. The order of d' values is more reliable than their size.";
+/// Predicted d', as a number up to [`MOST_D_PRIME`].
+fn shown(d_prime: f64) -> String {
+    if d_prime > MOST_D_PRIME { format!("above {MOST_D_PRIME:.0}") } else { three_digits(d_prime) }
+}
+
+/// Sentences about the meaning of a predicted d'. They state no proportion of answers, because the size of d' is uncertain.
+pub fn meaning(d_prime: f64, relation: Relation) -> &'static str {
+    match relation {
+        Relation::Processed if d_prime > MOST_D_PRIME => {
+            "A and B are told apart at once. Predicted from the signals, not rated by people."
+        }
+        Relation::Processed if d_prime >= 1.0 => {
+            "A and B can be told apart. Predicted from the signals, not rated by people."
+        }
+        Relation::Processed => {
+            "A and B are hard to tell apart. Predicted from the signals, not rated by people."
+        }
+        Relation::DifferentNoise => {
+            "The spectra agree, but the waveforms do not correlate, as for two renderings or strokes of one texture. The model compares waveforms, so it states no d'."
+        }
+        Relation::Unrelated => {
+            "The waveforms do not correlate. The model states d' only for a signal and a processed version of it."
+        }
+    }
+}
+
+pub const D_PRIME_HELP: &str = "Predicted discriminability of A and B: d' = z(H) - z(F), in standard deviations, with the hit rate H and the false-alarm rate F of the yes-no question \"different?\". At d' = 1, an unbiased observer answers it correctly with probability Φ(d'/2) = 69 %. A model with published weights predicts d'; no one has rated these signals. It applies to a signal and a processed version of it. The order of d' values is more reliable than their size.";
 
 /// Duration and signal-to-noise ratio of the comparison.
 pub fn compared(snr_db: f64, seconds: f64) -> String {
@@ -98,21 +117,34 @@ pub fn feature_help(feature: Feature) -> &'static str {
 
 #[cfg(test)]
 mod tests {
-    use super::answers;
+    use super::{D_PRIME_HELP, Relation, d_prime, features_title, meaning};
 
     #[test]
-    fn the_sentence_counts_correct_answers_of_ten() {
-        for (proportion, begin) in [
-            (
-                0.5,
-                "About 5 of 10 answers to \"same or different?\" would be correct, as many as by guessing.",
-            ),
-            (0.691, "About 7 of 10 answers"),
-            (0.9, "About 9 of 10 answers"),
-            (0.97, "Nearly every answer"),
-        ] {
-            let sentence = answers(proportion);
-            assert!(sentence.starts_with(begin) && sentence.ends_with("not rated by people."), "{sentence}");
+    fn large_values_are_not_numbers_and_unlike_waveforms_have_none() {
+        let processed = Relation::Processed;
+        assert_eq!(
+            (d_prime(1.234, processed), d_prime(37.3, processed)),
+            ("d' 1.23".into(), "d' above 5".into())
+        );
+        assert!(features_title(37.3, processed).ends_with("d' above 5"));
+        for relation in [Relation::DifferentNoise, Relation::Unrelated] {
+            for text in
+                [d_prime(6.2, relation), features_title(6.2, relation), meaning(6.2, relation).to_owned()]
+            {
+                assert!(!text.contains("6.2"), "{text}");
+            }
         }
+    }
+
+    #[test]
+    fn the_sentence_counts_no_answers() {
+        for (value, begin) in
+            [(0.2, "A and B are hard"), (3.0, "A and B can be"), (9.0, "A and B are told apart")]
+        {
+            let sentence = meaning(value, Relation::Processed);
+            assert!(sentence.starts_with(begin) && sentence.ends_with("not rated by people."), "{sentence}");
+            assert!(!sentence.contains("of 10"), "{sentence}");
+        }
+        assert!(D_PRIME_HELP.contains("yes-no"), "the task of the percentage is named");
     }
 }

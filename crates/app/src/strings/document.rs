@@ -13,12 +13,16 @@ pub const NEW_HELP: &str = "Starts a project with one authored texture and the s
 pub const OPEN: &str = "Open…";
 pub const RECENT: &str = "Recent projects";
 pub const SAVE: &str = "Save";
+/// Notice after the project was saved.
+pub const SAVED: &str = "Saved";
+pub const FOLDERS: &str = "Folders";
+pub const FOLDERS_HELP: &str = "Lists recently used folders";
 pub const SAVE_AS: &str = "Save as…";
 pub const KEEP_INSIDE: &str = "Embed library in the project";
 pub const KEEP_INSIDE_HELP: &str = "Stores all textures in the project file, so that you can share the file without its library. Otherwise the project only refers to the library.";
-pub const DRAG_STROKE: &str = "Play while dragging";
+pub const DRAG_STROKE: &str = "Play while dragging and after clicks";
 pub const DRAG_STROKE_HELP: &str =
-    "The automatic stroke runs while the point is dragged, so that the change is felt at once";
+    "The automatic stroke runs while the point is dragged, and for a moment after a click on a texture";
 pub const HOVER: &str = "Play under the pointer";
 pub const HOVER_HELP: &str = "A texture on the canvas plays while the pointer rests on it";
 pub const TEMPLATE: &str = "Use as template for new projects";
@@ -40,7 +44,7 @@ pub const OPEN_NOW: &str = "Open";
 pub const UP: &str = "Parent folder";
 pub const LISTING: &str = "Reading the folder…";
 pub const NOTHING_HERE: &str = "No file in this folder can be opened here.";
-pub const OPENING: &str = "Opening…";
+pub const OPENING: &str = "Opening… Escape cancels.";
 pub const CANCEL: &str = "Cancel";
 
 // Library outside the folder of its project.
@@ -90,6 +94,11 @@ pub fn would_be_lost(project: &str) -> String {
 }
 
 pub const EXISTS: &str = "A project file exists at this path. Replace it, or choose another path.";
+
+/// Says that the file of this name was not opened.
+pub fn canceled(name: &str) -> String {
+    format!("Opening {name} was canceled")
+}
 
 pub fn to_save(n_textures: usize, is_inside: bool) -> String {
     let textures = if n_textures == 1 {

@@ -16,6 +16,7 @@ pub const HEAR_ALONE: &str = "Solo texture";
 pub const HEAR_BLEND: &str = "End solo";
 pub const USE_SPACE: &str = "Use space";
 pub const CHOOSE_AXES: &str = "Choose axes";
+pub const CHOOSE_COMPARED: &str = "Choose A and B";
 pub const REMOVE_SNAPSHOT: &str = "Delete snapshot";
 pub const DRAW_PATH: &str = "Draw path";
 pub const ADD_PATH_POINT: &str = "Add path point";
@@ -25,6 +26,11 @@ pub const CHANGE_PATH_LENGTH: &str = "Change path length";
 pub const CHANGE_PATH_MEASURE: &str = "Switch path between distance and time";
 pub const CHANGE_PATH_END: &str = "Change behavior at path end";
 pub const CLEAR_PATH: &str = "Clear path";
+
+/// Edit that lets an added texture take part in the whole space, or only in the authored textures that pin it.
+pub fn used_where(name: &str, is_own: bool) -> String {
+    if is_own { format!("Use {name} only where pinned") } else { format!("Use {name} in whole space") }
+}
 
 pub fn moved(name: &str) -> String {
     format!("Move {name}")
@@ -76,6 +82,11 @@ pub fn removed(name: &str) -> String {
     format!("Delete {name}")
 }
 
+/// Edit that gives an added texture a relief.
+pub fn relief_of(name: &str) -> String {
+    format!("Set relief of {name}")
+}
+
 /// Edit that removes an added texture from the list.
 pub fn removed_texture(name: &str) -> String {
     format!("Remove {name}")
@@ -101,7 +112,7 @@ pub fn starred(name: &str, is_starred: bool) -> String {
     if is_starred { format!("Star {name}") } else { format!("Unstar {name}") }
 }
 
-/// Edit: the point was moved onto this texture.
-pub fn taken(name: &str) -> String {
-    format!("Choose {name}")
+/// Edit that makes an authored texture exactly the texture `of` of the library.
+pub fn taken(name: &str, of: &str) -> String {
+    format!("Make {name} exactly {of}")
 }

@@ -10,8 +10,9 @@ pub const HINT: &str = "/path/to/texture";
 pub const LOST: &str = "Not stored in the file:";
 pub const NOTHING_LOST: &str = "The file stores the whole texture.";
 pub const CHECKING: &str = "Checking what the file cannot store…";
-pub const ALL_HELP: &str =
-    "One file for each authored texture, with its name, in the folder of the path below";
+/// Hint of the path of a folder.
+pub const FOLDER_HINT: &str = "/path/to/folder";
+pub const ALL_HELP: &str = "One file for each authored texture, with its name, in the folder below";
 
 /// Name of a format with the ending of its files.
 pub fn format(name: &str, ending: &str) -> String {
@@ -33,23 +34,30 @@ pub fn texture_to_save(name: &str, format: &str) -> String {
     format!("Saves \"{name}\" as {format}.")
 }
 
-/// Summary of an export of all authored textures.
-pub fn all_to_save(n: usize, format: &str) -> String {
-    format!("Saves {n} files as {format}.")
+/// First line of the sheet: the exported texture, or the number of all authored ones.
+pub fn subject(name: &str, is_solo: bool, n_all: Option<usize>) -> String {
+    match n_all {
+        Some(n) => format!("Exports all {n} authored textures"),
+        None if is_solo => format!("Exports \"{name}\" of the list (solo)"),
+        None => format!("Exports \"{name}\""),
+    }
 }
 
-/// Question before files of the same format are replaced: the one at the path, or `n` in its folder.
-pub fn exists(n: usize, is_all: bool) -> String {
-    match (n, is_all) {
-        (_, false) => {
-            "A file of this format exists at this path. Replace it, or choose another path.".to_owned()
-        }
-        (1, true) => {
-            "One of the files exists in this folder. Replace it, or choose another folder.".to_owned()
-        }
-        (n, true) => {
-            format!("{n} files of this format exist in this folder. Replace them, or choose another folder.")
-        }
+/// Summary of an export of `n` textures into files with these names.
+pub fn all_to_save(names: &str, n: usize, format: &str) -> String {
+    format!("Saves {n} files in this folder as {format}: {names}")
+}
+
+/// Number of files that are not named, after those that are.
+pub fn and_more(n: usize) -> String {
+    format!(" and {n} more")
+}
+
+/// Question before `n` files of the same format with these names are replaced.
+pub fn exists(names: &str, n: usize) -> String {
+    match n {
+        1 => format!("{names} exists. Replace it, or choose another path."),
+        n => format!("{n} files exist: {names}. Replace them, or choose another folder."),
     }
 }
 

@@ -16,9 +16,11 @@ pub const DONE: &str = "Done";
 pub const SKIP: &str = "Skip tour";
 
 /// Keys and pointer actions that are not commands, with what they do.
-pub const MORE_KEYS: [(&str, &str); 7] = [
+pub const MORE_KEYS: [(&str, &str); 9] = [
     ("Arrow keys", "Move the selected point (Shift: larger steps)"),
-    ("Tab", "Move the keyboard focus to the next control"),
+    ("Tab", "Move the keyboard focus: title bar, status bar, stroke pad, scope, textures, inspector, space"),
+    ("Escape", "Restore the state before a drag, or return from a texture that plays alone"),
+    ("Enter on a texture", "Play it alone"),
     ("Ctrl with + - 0", "Zoom the interface in or out, or reset it"),
     ("Wheel over the space", "Zoom the view of the space"),
     ("Right or middle button", "Pan the view of the space"),
@@ -32,7 +34,7 @@ pub fn step(step: Step) -> [&'static str; 2] {
         Step::Drag => [
             "Drag the point",
             "Each point of this space is a texture: rough on the left, smooth on the right, hard at the bottom, soft at the \
-             top. Drag the point, or click one of the pictures.",
+             top. Drag the point to choose one. Click a picture to play it alone.",
         ],
         Step::Stroke => [
             "Feel it",

@@ -2,6 +2,7 @@
 
 use shagreen_core::recording::fit::{FitReport, Segment, TapFit};
 use shagreen_core::units::Contact;
+use shagreen_formats::recording::Ask;
 
 // Files.
 pub const TITLE: &str = "Import";
@@ -9,6 +10,8 @@ pub const TITLE: &str = "Import";
 pub const KIND: &str = "Recordings, models, libraries and pictures";
 pub const DROP_HERE: &str = "Drop recordings, photos, models or a library";
 pub const DROP_KINDS: &str = "Recordings (CSV, TXT, TSV, WAV) · photos (JPEG, PNG) · HaTT models (XML) · a Shagreen library (JSON) · a column map (map.toml) · a folder of these";
+/// Files that can be imported, below the reason why one cannot be.
+pub const ACCEPTED: &str = "Files that can be imported: recordings (CSV, TXT, TSV, WAV), photos (JPEG, PNG), HaTT models (XML), Shagreen libraries (JSON), a column map (map.toml), and folders of these.";
 pub const PATHS: &str = "Paths of files or folders";
 pub const PATHS_HINT: &str = "Path of a file or folder…";
 pub const READ: &str = "Read";
@@ -37,9 +40,12 @@ pub const GUESS: &str = "guess";
 pub const GUESS_HELP: &str = "Guessed from the numbers in the file, which does not state it. Select this value to confirm it, or select another one.";
 pub const CHOOSE: &str = "choose…";
 pub const ANSWERED: &str = "answered";
+pub const WRONG: &str = "not usable";
 pub const NUMBER_HINT: &str = "number";
-pub const SPEED_HINT: &str = "or e.g. 100 mm/s";
-pub const FORCE_HINT: &str = "or e.g. 1 N";
+pub const SPEED_HINT: &str = "e.g. 100 mm/s";
+pub const FORCE_HINT: &str = "e.g. 1 N";
+/// Contents of two channels, as an example.
+pub const CHANNELS_HINT: &str = "e.g. acceleration, unused";
 pub const FOR_ALL: &str = "Apply to all files with the same question";
 pub const ANSWER_FIRST: &str = "Answer the marked questions first. Without the answers, the units or the meaning of the numbers in this file are unknown.";
 
@@ -94,7 +100,7 @@ pub const GFC_HELP: &str = "Goodness-of-fit criterion (GFC) of the measured and 
 pub const LEVEL_ERROR: &str = "level error, median";
 pub const LEVEL_ERROR_HELP: &str = "Absolute difference in level between the model and the segments, in dB.";
 pub const TAP: &str = "tap transient";
-pub const TAP_HELP: &str = "Transient when the tip hits the surface: a decaying oscillation.";
+pub const TAP_HELP: &str = "Transient when the tip hits the surface: a decaying oscillation, stated for a landing at 100 mm/s. Recordings do not state how fast the tip landed, so this speed is assumed for them.";
 pub const NO_TAP: &str = "none found";
 pub const HELD_OUT: &str = "held-out segments: the compared model was fitted without them";
 pub const NOT_HELD_OUT: &str =
@@ -111,6 +117,7 @@ pub const ORIGIN: &str = "origin";
 pub const UNKNOWN: &str = "not stated";
 pub const JOINS_UNPLACED: &str =
     "It is added to the list without a position in the space. Click it in the list to play it alone.";
+pub const JOINS_PLACED: &str = "It is added to the list with an estimated position in the space.";
 pub const KEEPS_PLACE: &str =
     "It keeps its position if the position has the same source as those of the open library.";
 pub const N_NODES: &str = "speed-force points";
@@ -184,6 +191,54 @@ pub fn answer_of(key: &str) -> String {
 /// Answer with units as they are printed.
 pub fn answer(text: &str) -> String {
     text.replace("m/s^2", "m/s²")
+}
+
+/// Message about an unusable answer: what the question needs, with an example.
+pub fn not_understood(what: Ask, answer: &str, needs: &str) -> String {
+    let example = match what {
+        Ask::PerCount | Ask::FullScale | Ask::SpeedFullScale | Ask::ForceFullScale => ", such as 20",
+        Ask::RateHz => ", such as 10000",
+        Ask::Channels => ", separated by commas, such as \"acceleration, unused\"",
+        _ => "",
+    };
+    format!("\"{answer}\" cannot be used: give {needs}{example}")
+}
+
+/// Message about an answer that is not a speed or force.
+pub fn no_quantity(what: Ask, answer: &str) -> String {
+    let (quantity, example) = if what == Ask::Speed { ("speed", "100 mm/s") } else { ("force", "1 N") };
+    format!("\"{answer}\" is not a {quantity}: give a number with its unit, such as {example}")
+}
+
+/// Message about an answer that does not fit the file.
+pub fn misfit(what: Ask, problem: &str) -> String {
+    let instead = match what {
+        Ask::Speed => "; or give a constant speed, such as 100 mm/s",
+        Ask::Force => "; or give a constant force, such as 1 N",
+        _ => "; give another answer",
+    };
+    format!("{problem}{instead}")
+}
+
+/// Why a file of an unknown kind cannot be imported.
+pub fn no_kind(reason: &str) -> String {
+    format!("files of this kind cannot be imported ({reason})")
+}
+
+/// Note on a texture that was fitted at the rate of the space in Hz.
+pub fn placed_at(rate_hz: f64) -> String {
+    let rate_hz = rate_hz.round();
+    format!(
+        "It is added with an estimated position, and therefore fitted at {rate_hz} Hz, the sample rate of this space."
+    )
+}
+
+/// Why a texture gets no estimated position, and what to do.
+pub fn no_place_at(space_rate_hz: f64) -> String {
+    let rate_hz = space_rate_hz.round();
+    format!(
+        "It gets no estimated position. To get one, select the sample rate \"{AUTOMATIC}\" or {rate_hz} Hz."
+    )
 }
 
 pub fn rate(rate_hz: f64) -> String {
@@ -264,15 +319,7 @@ pub fn cannot_be_checked(reason: &str) -> String {
     format!("The file at this path cannot be read ({reason}) and is not replaced. Choose another path.")
 }
 
+pub const CANNOT_PLACE: &str =
+    "Positions are estimated from five or more textures with positions; this library has fewer.";
 pub const PLACE_THEM: &str = "Estimate positions";
 pub const PLACE_THEM_HELP: &str = "Estimates the position of each recording from textures that have similar vibration and a known position. The estimate is not a human rating.";
-
-/// Description of an estimated position: name, mean and standard deviation for each axis.
-pub fn placed_by_estimate(axes: &[(&str, f64, f64); 2]) -> String {
-    let axis = |(name, mean, deviation): &(&str, f64, f64)| format!("{name} {mean:.0} ± {deviation:.0}");
-    format!(
-        "Estimated position (mean ± standard deviation): {}, {}; nobody rated it.",
-        axis(&axes[0]),
-        axis(&axes[1])
-    )
-}

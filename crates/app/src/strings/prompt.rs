@@ -1,6 +1,6 @@
 //! Prompt box, and textures generated from prompts and photos.
 
-use shagreen_core::surfaces::prompt::PromptInterpretation;
+use shagreen_core::surfaces::prompt::{PromptInterpretation, Word};
 
 pub const HINT: &str = "Describe a surface: a rough, soft carpet";
 pub const FIELD: &str = "Describe a surface";
@@ -34,11 +34,15 @@ pub const STILL_BUSY: &str = "A texture is being generated. Wait for it, or pres
 pub const OTHER_AXES: &str = "The axes changed while the texture was generated. Generate it again.";
 pub const NOTHING_SAID: &str = "No description";
 pub const A_PHOTO: &str = "photo";
+/// Words of the lexicon about temperature, which no output of Shagreen renders.
+const TEMPERATURES: [&str; 4] = ["warm", "cold", "hot", "icy"];
+const NO_TEMPERATURE: &str = "Temperature is not rendered: words such as warm or cold change only roughness, hardness and pleasantness.";
 pub const NO_SCALE: &str = "The physical width of the picture is not known.";
 
-/// Estimated position along an axis: mean and standard deviation.
-pub fn along(ends: &[String; 2], mean: f64, deviation: f64) -> String {
-    format!("{} to {} {mean:.0} ± {deviation:.0}", ends[0], ends[1])
+/// Estimated position along an axis: the word at its upper end, mean and standard deviation.
+pub fn along([low, high]: &[String; 2], mean: f64, deviation: f64) -> String {
+    let word = if high.is_empty() { format!("not {low}") } else { high.clone() };
+    format!("{word} {mean:.0} ± {deviation:.0}")
 }
 
 /// Number of photos in the queue.
@@ -55,7 +59,7 @@ pub fn near(names: &[String]) -> String {
 pub fn said_of_words(understood: &PromptInterpretation) -> Vec<String> {
     let mut said = Vec::new();
     if understood.is_about_touch() {
-        let of = |word: &shagreen_core::surfaces::prompt::Word| {
+        let of = |word: &Word| {
             let not = if word.is_denied { "not " } else { "" };
             format!("{not}{}", word.taken_for)
         };
@@ -63,6 +67,10 @@ pub fn said_of_words(understood: &PromptInterpretation) -> Vec<String> {
         said.push(format!("Understood: {}.", words.join(", ")));
     } else {
         said.push("No word describes how a surface feels: any surface is equally likely.".to_owned());
+    }
+    let felt_warm = |word: &Word| TEMPERATURES.contains(&word.taken_for.as_str());
+    if understood.words.iter().any(felt_warm) {
+        said.push(NO_TEMPERATURE.to_owned());
     }
     if !understood.unknown.is_empty() {
         said.push(format!("Not understood: {}.", understood.unknown.join(", ")));

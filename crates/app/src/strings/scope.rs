@@ -1,5 +1,6 @@
 //! Oscilloscope.
 
+use shagreen_core::words::two_digits;
 use shagreen_formats::thresholds::ThresholdKind;
 
 use crate::choices::scope::View;
@@ -118,19 +119,15 @@ pub fn against(kind: ThresholdKind) -> String {
 
 /// Latest level, and its multiple of the detection threshold.
 pub fn level_now(level_db: f64, multiple: f64) -> String {
-    format!("{level_db:.0} dB · {}×", times(multiple))
+    format!("{level_db:.0} dB · {}×", two_digits(multiple))
 }
 
 /// The same as [`level_now`], as a sentence.
 pub fn level_now_in_full(level_db: f64, multiple: f64) -> String {
     format!(
-        "{level_db:.1} dB re 1 m/s² over the last 0.5 s: {} times the detection threshold (approximate)",
-        times(multiple)
+        "{level_db:.1} dB re 1 m/s² over the last 0.5 s: about {} times the detection threshold",
+        two_digits(multiple)
     )
-}
-
-fn times(multiple: f64) -> String {
-    if multiple < 9.95 { format!("{multiple:.1}") } else { format!("{multiple:.0}") }
 }
 
 pub fn measured_help(view: View) -> &'static str {

@@ -50,6 +50,17 @@ pub fn help(control: ShapeControl) -> &'static str {
     }
 }
 
+/// Why a control has nothing to act on; empty for those that always have something.
+pub fn nothing(control: ShapeControl) -> &'static str {
+    match control {
+        ShapeControl::Level | ShapeControl::Grain | ShapeControl::Brightness => "",
+        ShapeControl::Softness => "This texture has no tap transient.",
+        ShapeControl::Friction => "This texture has no friction coefficient.",
+        ShapeControl::Relief => "This texture has no relief.",
+        ShapeControl::Direction => "This texture is equal in all directions.",
+    }
+}
+
 /// Accessible name of the slider.
 pub fn slider(control: ShapeControl) -> String {
     format!("{HEADING}: {}", name(control).to_lowercase())

@@ -50,8 +50,8 @@ pub fn samples(of: SampleType) -> &'static str {
 /// Choice of the level.
 pub fn level(level: Level) -> &'static str {
     match level {
-        Level::Peak => "Peak at −1 dB",
-        Level::Kept => "m/s²",
+        Level::Peak => "Peak at −1 dB (for players)",
+        Level::Kept => "As measured, 1.0 = 1 m/s² (for analysis)",
     }
 }
 
@@ -59,11 +59,9 @@ pub fn level(level: Level) -> &'static str {
 pub fn level_help(level: Level) -> &'static str {
     match level {
         Level::Peak => {
-            "For players: the highest peak is 1 dB below full scale. The .json file states the acceleration at full scale."
+            "The highest peak is 1 dB below full scale. The .json file states the acceleration at full scale."
         }
-        Level::Kept => {
-            "For analysis: a sample of 1 is 1 m/s². Players clip what exceeds 1. Only for 32-bit floats."
-        }
+        Level::Kept => "A sample of 1.0 is 1 m/s². Players clip what exceeds 1. Only for 32-bit floats.",
     }
 }
 
@@ -81,4 +79,16 @@ pub fn to_save(secs: f64, contact: Option<(f64, f64)>) -> String {
 /// What will be saved: a signal of the Signals workspace.
 pub fn bench_to_save(name: &str, secs: f64) -> String {
     format!("Saves {name}, {secs:.2} s. A .json file with the unit is saved beside it.")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::level;
+    use shagreen_formats::wav_encoding::Level;
+
+    #[test]
+    fn both_levels_name_their_purpose_and_the_kept_one_its_unit() {
+        assert!(level(Level::Peak).contains("for players"));
+        assert!(level(Level::Kept).contains("1.0 = 1 m/s²") && level(Level::Kept).contains("for analysis"));
+    }
 }

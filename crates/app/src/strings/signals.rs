@@ -268,7 +268,7 @@ pub const MEASURED: &str = "from these signals";
 pub const BY_RATE: &str = "Predicted d' by codec bit rate";
 pub const KBPS: &str = "bit rate in kbit/s";
 pub const D_PRIME: &str = "predicted d'";
-pub const TOLD_APART: &str = "d' = 1: 69 % correct (unbiased)";
+pub const TOLD_APART: &str = "d' = 1: 69 % correct (yes-no, unbiased)";
 pub const PREDICTED: &str = "model prediction, not rated by people";
 
 pub const NEEDS_PAIR: &str = "A comparison needs two signals: load A and B.";

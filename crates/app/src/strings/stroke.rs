@@ -26,6 +26,7 @@ pub const OPEN_TITLE: &str = "Open a stroke";
 /// Kind of file in the dialog of the system.
 pub const OPEN_KIND: &str = "Stroke recordings";
 pub const OPEN_HINT: &str = "stroke.csv";
+pub const CANCELED: &str = "Opening the stroke was canceled";
 pub const BROKE_OFF: &str = "Reading the stroke stopped unexpectedly; try again";
 pub const NEVER_TOUCHES: &str = "the tip never touches the surface in this stroke; choose another file";
 

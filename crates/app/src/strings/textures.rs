@@ -7,6 +7,7 @@ use shagreen_core::units::Contact;
 use crate::choices::textures::{End, Region};
 use crate::strings;
 
+pub const CLEAR_SEARCH: &str = "Clear the search";
 pub const FILTER: &str = "Filter";
 pub const FILTER_HELP: &str = "Lists only textures with the selected tags, in a region of the space, with a star, or added to this project. The audible texture does not change.";
 pub const TAGS: &str = "Tags";
@@ -30,9 +31,13 @@ pub const DETAILS: &str = "Details…";
 pub const DETAILS_HELP: &str =
     "Shows name, position, license, range of speed and force, and plots of level and spectrum";
 pub const HEAR_ALONE: &str = "Solo";
-pub const HEAR_ALONE_HELP: &str = "Plays this texture instead of the interpolated one, until the authored point moves. Stroke the pad to feel it.";
-pub const CHOOSE: &str = "Choose exactly";
-pub const CHOOSE_HELP: &str = "Moves the authored point onto this texture and plays exactly this texture, until the point moves. A click on its picture in the space does the same.";
+pub const HEAR_ALONE_HELP: &str = "Plays this texture alone, as a click on it does. The authored texture does not change; Escape returns to it.";
+pub const CHOOSE: &str = "Use exactly this";
+pub const CHOOSE_HELP: &str = "Makes the selected authored texture exactly this one: at its position, in the mode Field and pinned, with a neutral shape. A double click on the texture does the same.";
+pub const CLICK_HELP: &str = "Click to play it alone; double-click to use exactly this texture.";
+pub const BACK: &str = "Back";
+pub const BACK_NAME: &str = "Back to the authored texture";
+pub const BACK_HELP: &str = "Plays the selected authored texture again (Escape).";
 pub const AUTHOR: &str = "Add as authored texture";
 pub const AUTHOR_HELP: &str = "Adds an authored texture that is exactly this texture: at its position, in the mode Field and pinned. Dragging the row onto the space does the same.";
 pub const NO_POSITION: &str = "This texture has no position in the space.";
@@ -48,6 +53,7 @@ pub const REMOVE: &str = "Remove";
 pub const REMOVE_HELP: &str = "Removes the texture from the project. Undo restores it.";
 pub const CANNOT_REMOVE: &str =
     "This texture is part of the library. Only textures that were added to the project can be removed.";
+pub const WHOLE_SPACE: &str = "Use in the whole space";
 pub const MORE_HELP: &str = "Opens the menu of this texture; a right-click on the row does the same";
 
 pub const TITLE: &str = "Texture details";
@@ -63,7 +69,8 @@ pub const PLACE_FROM: &str = "position from";
 pub const TAGS_LABEL: &str = "tags";
 pub const NONE: &str = "none";
 pub const PASSING_ON: &str = "sharing";
-pub const PASSED_ON_FREELY: &str = "allowed under its license";
+const PASSED_ON_FREELY: &str = "allowed under its license";
+const PASSED_ON_UNKNOWN: &str = "unknown: its license is not stated";
 pub const TERMS_HELP: &str = "License for use and redistribution, as stated in the library file.";
 pub const ATTRIBUTES: &str = "Attributes";
 pub const ATTRIBUTES_HELP: &str =
@@ -75,8 +82,7 @@ pub const NODES_HELP: &str =
     "Number of pairs of speed and force with a model. Values between them are interpolated.";
 pub const SPEEDS: &str = "speeds";
 pub const FORCES: &str = "forces";
-pub const RANGE_HELP: &str =
-    "Range of speeds or forces with a model. Above it, the texture does not change any further.";
+pub const RANGE_HELP: &str = "Range of speeds or forces with a model. Above it, the texture does not change any further; below it, it fades to silence.";
 pub const FRICTION_HELP: &str = "Ratio of tangential to normal force while the tip slides. A vibrating pen renders only the stick-slip of a slow tip. A friction display renders all of it: its channel is in the profile of the actuator.";
 pub const NO_FRICTION: &str = "not known";
 pub const NO_LANDING: &str = "not known: taps are silent";
@@ -88,8 +94,35 @@ pub const PATH: &str = "path";
 pub const PATH_HELP: &str =
     "The texture changes along a stroke. This sheet shows the first texture of the path.";
 pub const LEVELS: &str = "Level over speed and force";
-pub const LEVELS_HELP: &str = "Level of the vibration, in dB re 1 m/s²: brighter is stronger. Dots are speed-force points with a model; all other values are interpolated.";
+pub const LEVELS_HELP: &str = "Level of the vibration, in dB re 1 m/s²: brighter is stronger. Dots are speed-force points with a model; all other values are interpolated. Below the lowest dots, the level fades to silence. Levels and spectra are those of the noise in a stroke across the lay, without stick-slip and reliefs.";
 pub const SPECTRA: &str = "Spectra";
+
+/// Whether a texture without restrictions may be passed on under this license, empty if none is stated.
+pub fn passed_on(license: &str) -> &'static str {
+    if license.trim().is_empty() { PASSED_ON_UNKNOWN } else { PASSED_ON_FREELY }
+}
+
+/// What the switch [`WHOLE_SPACE`] changes, in a sentence. `n_changed` authored textures can change; `None` for a texture
+/// without a position.
+pub fn whole_space_effect(is_everywhere: bool, n_changed: Option<usize>) -> String {
+    let change = match n_changed {
+        None => "it has no position, so no authored texture changes".to_owned(),
+        Some(0) => "no authored texture changes, because all of them pin it".to_owned(),
+        Some(1) => "1 authored texture can change".to_owned(),
+        Some(n) => format!("{n} authored textures can change"),
+    };
+    let (state, switched) =
+        if is_everywhere { ("in the whole space", "off") } else { ("only where it is pinned", "on") };
+    format!("This texture contributes {state}. If you switch this {switched}: {change}.")
+}
+
+/// Note on a texture that takes part only in these authored textures.
+pub fn only_in(authored: &[&str]) -> String {
+    if authored.is_empty() {
+        return "In no authored texture, because none pins it".to_owned();
+    }
+    format!("Only in {}", authored.join(", "))
+}
 
 /// Friction coefficient, and how it is felt: as stick-slip below a speed in mm/s at a force in N, by a friction display, or
 /// not at all.

@@ -1,16 +1,22 @@
 //! Author page: the canvas between the texture list and the inspector, above the stage.
 
+use std::ops::RangeInclusive;
+
 use egui::{CentralPanel, Frame, Margin, Panel as Side, Ui};
 use shagreen_core::space::heat_map::Quantity;
+use shagreen_formats::settings::PanelSizes;
 
 use super::Window;
 use crate::author::canvas::{CanvasState, ShownMap, canvas_ui};
 use crate::author::inspector::inspector_ui;
 use crate::author::library_panel::{LibraryState, library_ui};
 use crate::author::prompt::bar_ui::bar_ui;
-use crate::author::prompt::card_ui::card_ui;
+use crate::author::prompt::card_ui::{CardPlace, card_ui};
 use crate::command::Command;
-use crate::look::theme::{INSPECTOR_WIDTH, LIBRARY_WIDTH, map_color, tokens};
+use crate::look::border::{Edge, border_ui};
+use crate::look::theme::{
+    INSPECTOR_WIDTH, INSPECTOR_WIDTHS, LEAST_MAP_WIDTH, LIBRARY_WIDTH, LIBRARY_WIDTHS, map_color, tokens,
+};
 use crate::panel::Panel;
 use crate::state::heat_map::{Grid, HeatMap, Wanted};
 use crate::state::photo::OwnPicture;
@@ -23,7 +29,19 @@ pub(super) struct AuthorPage {
     heat: HeatMap,
     /// Quantity of the heat map, if one is shown.
     pub(super) map: Option<Quantity>,
+    /// Key of the authored texture whose export waits for its models.
+    pub(super) to_export: Option<u32>,
     guess_picture: OwnPicture,
+    card: CardPlace,
+}
+
+/// Widths of the texture list and of the inspector, in points, in a window that leaves `room` to them and the map.
+fn widths(chosen: PanelSizes, room: f32) -> [f32; 2] {
+    let within = |width: f32, range: RangeInclusive<f32>| width.clamp(*range.start(), *range.end());
+    let library = chosen.library.map_or(LIBRARY_WIDTH, |width| within(width, LIBRARY_WIDTHS));
+    let inspector = chosen.inspector.map_or(INSPECTOR_WIDTH, |width| within(width, INSPECTOR_WIDTHS));
+    let library = library.min((room - LEAST_MAP_WIDTH - INSPECTOR_WIDTH).max(LIBRARY_WIDTH));
+    [library, inspector.min((room - LEAST_MAP_WIDTH - library).max(INSPECTOR_WIDTH))]
 }
 
 impl Window {
@@ -32,45 +50,54 @@ impl Window {
         let map = self.follow_map(ctx);
         self.stage_ui(ui, ctx, commands);
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
+        let [library_width, inspector_width] = widths(self.files.settings.panels, ui.available_width());
         let library = &mut self.pages.author.library;
-        Side::left("library").exact_size(LIBRARY_WIDTH).resizable(false).show(ui, |ui| {
+        let library = Side::left("library").exact_size(library_width).resizable(false).show(ui, |ui| {
             commands.extend(library_ui(ui, &panel, library));
         });
-        Side::right("inspector").exact_size(INSPECTOR_WIDTH).resizable(false).show(ui, |ui| {
-            self.tour.places[2] = ui.max_rect();
-            commands.extend(inspector_ui(ui, &panel));
-        });
+        let inspector =
+            Side::right("inspector").exact_size(inspector_width).resizable(false).show(ui, |ui| {
+                self.tour.places[2] = ui.max_rect();
+                commands.extend(inspector_ui(ui, &panel));
+            });
         let frame = Frame::new().fill(tokens(ctx).panel).inner_margin(Margin::same(6));
         CentralPanel::default().frame(frame).show(ui, |ui| {
             commands.extend(bar_ui(ui, &mut self.prompts, &self.files.settings.prompts));
             let guess = self.prompts.guess_of(self.project.texture());
+            let area = ui.available_rect_before_wrap();
+            self.tour.places[0] = area;
+            let AuthorPage { canvas, card, guess_picture, .. } = &mut self.pages.author;
+            commands.extend(canvas_ui(ui, &panel, canvas, map.as_ref(), guess));
             if let Some(guess) = guess {
-                let picture = self
-                    .pages
-                    .author
-                    .guess_picture
-                    .follow(Some(&guess.picture), ctx)
-                    .map(|(picture, _)| picture);
-                commands.extend(card_ui(ui, &panel, guess, self.prompts.is_busy(), picture));
+                let picture = guess_picture.follow(Some(&guess.picture), ctx).map(|(picture, _)| picture);
+                let is_busy = self.prompts.is_busy();
+                commands.extend(card_ui(ui, area, card, &panel, guess, is_busy, picture));
             }
-            self.tour.places[0] = ui.available_rect_before_wrap();
-            commands.extend(canvas_ui(ui, &panel, &mut self.pages.author.canvas, map.as_ref(), guess));
+            card.block(ui);
         });
+        let (library, inspector) = (library.response.rect, inspector.response.rect);
+        let sizes = &mut self.files.settings.panels;
+        border_ui(ui, "library", library, Edge::Right, &mut sizes.library);
+        border_ui(ui, "inspector", inspector, Edge::Left, &mut sizes.inspector);
+        if let Some(stage) = self.pages.stage.area {
+            border_ui(ui, "stage", stage, Edge::Top, &mut sizes.stage);
+        }
     }
 
     /// Heat map behind the canvas, as far as it is computed.
     fn follow_map(&mut self, ctx: &egui::Context) -> Option<ShownMap> {
         let session = &self.session;
         let contact = self.pages.stage.pad.contact(session);
+        let texture = self.project.texture();
         let wanted = self.pages.author.map.map(|quantity| Wanted {
             quantity,
-            blending: session.blending(&self.project.texture().blend),
+            blending: session.blending(&texture.blend),
             contact,
-            generation: session.generation(),
+            generation: session.generation_of(texture),
         });
         self.pages.author.heat.follow(
             wanted,
-            || (session.authoring().clone(), session.planes().to_vec()),
+            || (session.authoring_of(texture).into_owned(), session.planes().to_vec()),
             ctx,
         );
         let quantity = self.pages.author.map?;

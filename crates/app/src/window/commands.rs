@@ -2,23 +2,30 @@
 
 use std::sync::Arc;
 
+use egui::Popup;
 use shagreen_formats::actuator_toml::built_in_actuators;
+use shagreen_studio::export::WAV;
+use shagreen_studio::file::shown_name;
 
 use super::Window;
 use crate::author::inspector::name_field;
 use crate::author::new_texture::copy_of;
 use crate::author::texture_sheet::TextureSheet;
-use crate::command::Command;
+use crate::command::{Command, FileCommand};
 use crate::look::motion;
+use crate::look::notice::{clear_earlier_notice, clear_notice, show_notice};
 use crate::panel::Panel;
 use crate::session::OutputChoice;
 use crate::session::kept_path::kept_path;
 use crate::sheets::Sheet;
+use crate::sheets::about_sheet::AboutSheet;
 use crate::sheets::devices::DevicesSheet;
 use crate::sheets::guide_sheet::GuideSheet;
 use crate::sheets::palette::PaletteSheet;
 use crate::sheets::save::SaveSheet;
+use crate::state::compare::CompareCommand;
 use crate::state::edit::Edit;
+use crate::strings::{authored, document, stroke};
 use crate::workspace::Workspace;
 
 impl Window {
@@ -54,6 +61,77 @@ impl Window {
         self.carry_out(Command::Edit(Edit::Author(copy)), ctx);
     }
 
+    /// Selects an authored texture and puts the keyboard focus on its name.
+    fn rename_authored(&mut self, key: u32, ctx: &egui::Context) {
+        if key != self.project.texture().key {
+            self.carry_out(Command::Edit(Edit::Select(key)), ctx);
+        }
+        // The inspector shows the selected texture, and not one that a comparison plays.
+        self.compare.end();
+        ctx.memory_mut(|memory| memory.request_focus(name_field()));
+    }
+
+    /// Selects an authored texture and opens the export sheet, which exports what is audible, once its models are computed.
+    fn export_authored(&mut self, key: u32, ctx: &egui::Context) {
+        self.carry_out(Command::Edit(Edit::Select(key)), ctx);
+        self.follow_project(ctx);
+        self.pages.author.to_export = Some(key);
+        self.open_awaited_export(ctx);
+    }
+
+    /// Opens the export sheet that waits for the models of an authored texture. Another audible texture, a sheet or another
+    /// workspace ends the wait.
+    pub(super) fn open_awaited_export(&mut self, ctx: &egui::Context) {
+        let Some(key) = self.pages.author.to_export else { return };
+        let is_wanted = self.heard_texture().is_some_and(|texture| texture.key == key)
+            && !self.sheet.is_open()
+            && self.pages.workspace == Workspace::Author;
+        if is_wanted && self.session.is_preparing() {
+            return;
+        }
+        self.pages.author.to_export = None;
+        if is_wanted {
+            self.carry_out(Command::File(FileCommand::Export(WAV.id)), ctx);
+        }
+    }
+
+    /// Deletes the selected authored texture, unless the key may be meant for something else: for a point of the path, for a
+    /// texture that plays alone, for an open menu, or for what a blind comparison plays.
+    fn delete_selected(&mut self, ctx: &egui::Context) {
+        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
+        let is_for_another = self.pages.author.canvas.tool.is_on
+            || panel.solo().is_some()
+            || Popup::is_any_open(ctx)
+            || self.compare.is_hidden();
+        if is_for_another || self.project.authored.len() < 2 {
+            return;
+        }
+        let texture = self.project.texture();
+        let key = texture.key;
+        let said = authored::deleted(&texture.name, &Command::Undo.shortcut_text(ctx));
+        self.carry_out(Command::Edit(Edit::Remove(key)), ctx);
+        show_notice(ctx, said);
+    }
+
+    /// Executes a command about a comparison. The textures on its sides belong to the project. A hidden texture does not
+    /// begin with the sound of the previous one, which would tell the two apart.
+    fn carry_out_compare(&mut self, command: CompareCommand, ctx: &egui::Context) {
+        if let CompareCommand::Assign(side, key) = command {
+            let compared = self.compare.assigned(side, key);
+            self.carry_out(Command::Edit(Edit::SetCompared(compared)), ctx);
+            return;
+        }
+        if matches!(command, CompareCommand::Hear(_)) {
+            for texture in self.compare.textures() {
+                self.session.prepare(texture);
+            }
+        }
+        self.compare.carry_out(command);
+        if self.compare.is_hidden() {
+            self.session.fall_silent();
+        }
+    }
+
     /// Adds the path of the selected authored texture to the list of textures.
     fn keep_path(&mut self, ctx: &egui::Context) {
         match kept_path(&self.project, &self.session) {
@@ -65,7 +143,7 @@ impl Window {
         }
     }
 
-    /// Closes the open sheet, and remembers the folder of an export.
+    /// Closes the open sheet, and remembers the folder of an export. A file that the sheet is opening is discarded.
     fn close_sheet(&mut self) {
         let folder = match &self.sheet {
             Sheet::Save(sheet) => sheet.folder_of_export(),
@@ -75,37 +153,56 @@ impl Window {
         if let Some(folder) = folder {
             self.exports_folder = folder.to_owned();
         }
+        if let Some(message) = self.cancel_opening() {
+            self.session.say(message);
+        }
         self.sheet = Sheet::Closed;
         self.files.stay();
+    }
+
+    /// Discards the file that the open sheet is opening; returns the message about it.
+    fn cancel_opening(&mut self) -> Option<String> {
+        match &self.sheet {
+            Sheet::Open(sheet) if sheet.is_for_strokes() => {
+                self.readers.strokes.cancel().then(|| stroke::CANCELED.to_owned())
+            }
+            Sheet::Open(sheet) if !sheet.is_for_projects() => None,
+            Sheet::Open(_) | Sheet::OutsideLibrary(_) => {
+                self.files.cancel_opening().map(|path| document::canceled(&shown_name(&path)))
+            }
+            _ => None,
+        }
+    }
+
+    /// Applies an edit.
+    fn carry_out_edit(&mut self, edit: Edit, ctx: &egui::Context) {
+        // Edits apply to the selected texture, so that texture must be audible.
+        self.compare.end();
+        // Undo no longer reverts what an earlier notice names.
+        clear_earlier_notice(ctx);
+        if matches!(edit, Edit::AddTextures(_)) {
+            self.pages.author.library.show_all();
+            self.pages.author.library.reveal = Some(self.session.textures().len());
+        }
+        self.history.apply(&mut self.project, edit, self.gesture.current());
     }
 
     /// Executes a command.
     pub fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
         match command {
             Command::File(command) => self.carry_out_file(command, ctx),
-            Command::Edit(edit) => {
-                // Edits apply to the selected texture, so that texture must be audible.
-                self.compare.end();
-                if matches!(edit, Edit::AddTextures(_)) {
-                    self.pages.author.library.show_all();
-                    self.pages.author.library.reveal = Some(self.session.textures().len());
-                }
-                self.history.apply(&mut self.project, edit, self.gesture.current());
-            }
+            Command::Edit(edit) => self.carry_out_edit(edit, ctx),
             Command::OpenTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::new(id))),
-            Command::RenameAuthored(key) => {
-                if key != self.project.texture().key {
-                    self.carry_out(Command::Edit(Edit::Select(key)), ctx);
-                }
-                // The inspector shows the selected texture, and not one that a comparison plays.
-                self.compare.end();
-                ctx.memory_mut(|memory| memory.request_focus(name_field()));
-            }
+            Command::RenameAuthored(key) => self.rename_authored(key, ctx),
+            Command::ExportAuthored(key) => self.export_authored(key, ctx),
+            Command::RenameSelected => self.rename_authored(self.project.texture().key, ctx),
+            Command::DeleteSelected => self.delete_selected(ctx),
             Command::Clipboard(command) => self.carry_out_clipboard(command, ctx),
             Command::RenameTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::to_rename(id))),
             Command::OpenShortcuts => self.sheet = Sheet::Shortcuts,
             Command::OpenPalette => self.sheet = Sheet::Palette(PaletteSheet::default()),
             Command::OpenGuide => self.sheet = Sheet::Guide(Box::new(GuideSheet::new())),
+            Command::OpenAbout => self.sheet = Sheet::About(AboutSheet::new(&self.files.keeping)),
             Command::BeginTour => {
                 self.pages.workspace = Workspace::Author;
                 self.tour.begin();
@@ -113,15 +210,18 @@ impl Window {
             Command::Stroke(command) => self.carry_out_stroke(command, ctx),
             Command::ReadPhoto(source) => self.readers.photo.read(source, self.project.texture().key, ctx),
             Command::Prompt(command) => self.carry_out_prompt(command, ctx),
+            Command::Relief(command) => self.carry_out_relief(command, ctx),
             Command::ShowMap(quantity) => self.pages.author.map = quantity,
-            Command::Compare(command) => self.compare.carry_out(command),
+            Command::Compare(command) => self.carry_out_compare(command, ctx),
             Command::Signals(command) => self.carry_out_signals(command, ctx),
             Command::Undo if self.painting_labels()[0].is_some() => self.pages.signals.undo(),
             Command::Undo => {
+                clear_notice(ctx);
                 self.history.undo(&mut self.project);
             }
             Command::Redo if self.painting_labels()[1].is_some() => self.pages.signals.redo(),
             Command::Redo => {
+                clear_notice(ctx);
                 self.history.redo(&mut self.project);
             }
             Command::ToggleHand => {
@@ -164,9 +264,14 @@ impl Window {
             Command::LetGoOfOutput => self.session.let_go_of_output(),
             Command::TakeOutputBack => self.session.take_output_back(ctx),
             Command::ListPens => self.session.list_pens(ctx),
-            Command::OpenImport => self.sheet.import(Vec::new(), ctx),
-            Command::Import(sources) => self.sheet.import(sources, ctx),
-            Command::ImportHere(sources) => self.sheet.import_here(sources, ctx),
+            Command::OpenImport => {
+                self.sheet.import(Vec::new(), ctx);
+                self.offer_folders();
+            }
+            Command::ImportHere(sources) => {
+                self.sheet.import_here(sources, ctx);
+                self.offer_folders();
+            }
             Command::Show(workspace) => self.pages.workspace = workspace,
             Command::ReadJudgments(sources) => self.pages.build.read(sources, ctx),
             Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library()),

@@ -30,12 +30,18 @@ impl Window {
         };
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         let name = panel.heard_name();
+        let is_solo = panel.solo().is_some() && self.session.felt_name().is_none();
         let id = id_from_name(&name);
+        let signal = signal.map(|mut file| {
+            file.sidecar.name = Some(name.clone());
+            file
+        });
         // A blind comparison hides the authored textures, and a signal of the Signals workspace takes their place.
         let n_authored = if self.session.authored().is_some() { self.project.authored.len() } else { 0 };
         let audible = AudibleTexture { name, signal, entry };
-        let subject = ExportSubject { audible, n_authored, contact };
+        let subject = ExportSubject { audible, is_solo, n_authored, contact };
         let sheet = ExportSheet::new(subject, format, &self.exports_folder, &id);
         self.sheet = Sheet::Export(Box::new(sheet));
+        self.offer_folders();
     }
 }

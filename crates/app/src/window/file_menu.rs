@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, Label, PopupCloseBehavior, RichText, TextEdit, Ui};
+use egui::{Button, Checkbox, Label, PopupCloseBehavior, RichText, TextEdit, Ui};
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::settings::Settings;
 use shagreen_studio::export::WAV;
@@ -60,7 +60,8 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
         ui.separator();
         let open = files.document.path();
         let is_template = open.is_some() && files.settings.template.as_deref() == open;
-        let template = Button::selectable(is_template, strings::TEMPLATE);
+        let mut is_ticked = is_template;
+        let template = Checkbox::new(&mut is_ticked, strings::TEMPLATE);
         let template = ui.add_enabled(open.is_some(), template);
         if template
             .on_hover_text(strings::TEMPLATE_HELP)
@@ -76,7 +77,7 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
             commands.push(Command::File(FileCommand::KeepLibraryInside));
         }
         ui.separator();
-        for (name, help, is_on, command) in [
+        for (name, help, mut is_on, command) in [
             (
                 strings::DRAG_STROKE,
                 strings::DRAG_STROKE_HELP,
@@ -86,7 +87,7 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
             (strings::HOVER, strings::HOVER_HELP, files.settings.plays_on_hover, Command::ToggleHover),
             (motion::REDUCE, motion::REDUCE_HELP, is_reduced(ui.ctx()), Command::ToggleMotion),
         ] {
-            if ui.add(Button::selectable(is_on, name)).on_hover_text(help).clicked() {
+            if ui.add(Checkbox::new(&mut is_on, name)).on_hover_text(help).clicked() {
                 commands.push(command);
             }
         }

@@ -13,8 +13,10 @@ use shagreen_studio::project::new_project;
 
 use super::Window;
 use crate::command::{Command, FileCommand};
+use crate::look::notice::show_notice;
 use crate::sheets::Sheet;
 use crate::sheets::command_for;
+use crate::sheets::folders_ui::folders_of;
 use crate::sheets::gallery_sheet::GallerySheet;
 use crate::sheets::open_sheet::OpenSheet;
 use crate::sheets::outside_library::OutsideLibrarySheet;
@@ -119,6 +121,7 @@ impl Window {
         match came {
             Came::Saved(path) => {
                 self.files.note_saved(&path, &self.project);
+                show_notice(ctx, strings::document::SAVED.to_owned());
                 if matches!(&self.sheet, Sheet::Save(sheet) if sheet.is_of_project()) {
                     self.sheet = Sheet::Closed;
                 }
@@ -267,6 +270,19 @@ impl Window {
             Path::to_owned,
         );
         self.sheet = Sheet::Save(SaveSheet::project(&self.project, &path));
+        self.offer_folders();
+    }
+
+    /// Offers the folders of the present project and of recent ones in the open sheet, if it asks for a path.
+    pub(super) fn offer_folders(&mut self) {
+        let recent = self.files.settings.recent.iter().map(PathBuf::as_path);
+        let folders = folders_of(self.files.document.path().into_iter().chain(recent));
+        match &mut self.sheet {
+            Sheet::Import(sheet) => sheet.offer(folders),
+            Sheet::Save(sheet) => sheet.offer(folders),
+            Sheet::Export(sheet) => sheet.offer(folders),
+            _ => {}
+        }
     }
 
     /// Default folder for files: that of the project, otherwise that of the most recent project, otherwise the current

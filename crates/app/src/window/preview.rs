@@ -1,5 +1,5 @@
-//! Preview: the point plays while it is dragged or shaped, and a texture plays while the pointer rests on it. Both use the
-//! automatic stroke, and both can be turned off. A project of the gallery plays while the pointer rests on it, too.
+//! Preview: the point plays while it is dragged or shaped, a texture plays for a moment after a click on it, and while the
+//! pointer rests on it. All use the automatic stroke, and can be turned off. A project of the gallery plays while the pointer rests on it, too.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -17,6 +17,8 @@ use crate::workspace::Workspace;
 
 /// Time for which the pointer must rest on a texture.
 const REST: Duration = Duration::from_millis(350);
+/// Time for which a texture plays after a click on it.
+const LISTENED: Duration = Duration::from_millis(1500);
 
 /// What can play under the pointer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +34,8 @@ enum Pointed {
 pub(super) struct Preview {
     /// Whether the point or a control of its shape is being dragged.
     is_dragging: bool,
+    /// When a texture was last chosen to play alone, while it plays for a moment.
+    listened: Option<Instant>,
     /// What is under the pointer, and when the pointer came to it.
     pointed: Option<(Pointed, Instant)>,
     /// Selected texture of the project of the gallery under the pointer.
@@ -88,6 +92,15 @@ impl Window {
         let may_drag = is_author && !self.files.settings.is_silent_while_dragging;
         let dragged = self.preview.is_dragging || commands.iter().any(is_moved);
         self.preview.is_dragging = may_drag && is_held && dragged && ctx.dragged_id().is_some();
+        let listens = |command: &Command| matches!(command, Command::Edit(Edit::Solo(Some(_))));
+        let toggles = |command: &Command| matches!(command, Command::ToggleHand);
+        let is_toggled = commands.iter().any(toggles);
+        if commands.iter().any(listens) {
+            self.preview.listened = Some(Instant::now());
+        } else if is_toggled || is_held || self.project.solo.is_none() || self.compare.heard().is_some() {
+            self.preview.listened = None;
+        }
+        self.preview.listened = self.preview.listened.filter(|since| may_drag && since.elapsed() < LISTENED);
         let may_point = is_author && self.files.settings.plays_on_hover && !is_held;
         let pointed = self.pages.author.canvas.pointed.filter(|_| may_point).map(Pointed::Texture);
         let in_gallery = self.pointed_in_gallery().filter(|_| !is_held);
@@ -99,9 +112,10 @@ impl Window {
         if self.preview.pointed.is_some() {
             ctx.request_repaint_after(REST);
         }
-        let is_wanted = self.preview.is_dragging || self.preview.auditioned().is_some();
-        let toggles = |command: &Command| matches!(command, Command::ToggleHand);
-        if self.preview.is_stroking && commands.iter().any(toggles) {
+        let is_wanted = self.preview.is_dragging
+            || self.preview.listened.is_some()
+            || self.preview.auditioned().is_some();
+        if self.preview.is_stroking && is_toggled {
             // The user takes the stroke over, which is running already.
             commands.retain(|command| !toggles(command));
             self.preview.is_stroking = false;
@@ -111,5 +125,6 @@ impl Window {
         } else if !is_wanted && std::mem::take(&mut self.preview.is_stroking) {
             self.session.set_hand(None);
         }
+        self.pages.stage.pad.is_preview = self.preview.is_stroking;
     }
 }

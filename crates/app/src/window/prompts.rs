@@ -65,7 +65,7 @@ impl Window {
                 at: guess.at(),
                 picture: Some(Arc::clone(&guess.picture)),
                 notes: guess.notes(),
-                blend: self.project.texture().blend.clone(),
+                blend: self.project.blend_of_new(),
                 ..AuthoredTexture::new(0, &free_name(&guess.name, is_taken))
             })]
         };
@@ -74,6 +74,7 @@ impl Window {
             self.carry_out(Command::Edit(edit), ctx);
         }
         self.prompts.keep(guess, self.project.texture().key, ctx);
+        self.prompts.note_step(self.history.revision());
     }
 
     /// Whether results may change the project: they wait while the user drags, a sheet is open, another workspace is
@@ -107,8 +108,15 @@ impl Window {
         let at = self.position_for(key, texture.at, earlier.as_ref());
         let picture = Picture::clone(&picture);
         let entry = Arc::new(felt_entry(id, &texture.name, &texture.notes, model, picture, at));
-        self.gesture.begin_another();
-        self.carry_out(Command::Edit(Edit::JoinSimulated { key, entry: Arc::clone(&entry), earlier }), ctx);
+        let edit = Edit::JoinSimulated { key, entry: Arc::clone(&entry), earlier };
+        if self.prompts.is_at_step(self.history.revision()) {
+            // Texture and simulation of one prompt are undone together.
+            self.compare.end();
+            self.history.add_to_last(&mut self.project, edit);
+        } else {
+            self.gesture.begin_another();
+            self.carry_out(Command::Edit(edit), ctx);
+        }
         self.prompts.note_simulated(key, entry);
     }
 
@@ -124,8 +132,8 @@ impl Window {
 
     /// Position of a texture that is simulated for the authored texture with this key, if it may have one: a built space and
     /// chosen attributes place only what has been rated, and two textures at one position form no space. `earlier` was
-    /// simulated for it before.
-    fn position_for(
+    /// simulated for it before. Textures that take no part in the authored texture do not count.
+    pub(super) fn position_for(
         &self,
         key: u32,
         at: SpacePoint,
@@ -138,6 +146,9 @@ impl Window {
             replaced.is_some_and(|replaced| replaced.id == textures[*texture].id)
                 || site.distance(at) > LEAST_DISTANCE
         };
-        (is_own && self.session.space().sites().iter().all(is_far)).then_some(at)
+        let texture = self.project.authored.iter().find(|texture| texture.key == key);
+        let left_out = texture.map_or_else(Vec::new, |texture| self.session.left_out(&texture.blend));
+        let takes_part = |(texture, _): &(usize, SpacePoint)| !left_out.contains(texture);
+        (is_own && self.session.placed().filter(takes_part).all(|site| is_far(&site))).then_some(at)
     }
 }

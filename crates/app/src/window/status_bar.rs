@@ -1,14 +1,17 @@
 //! Status bar: output, latency and messages.
 
-use egui::{Button, Label, RichText, Sense, Ui};
+use egui::{Align, Button, Label, Layout, Response, RichText, Sense, Ui, vec2};
 use shagreen_device::status::LinkState;
 
 use crate::command::Command;
+use crate::look::notice::notice;
 use crate::look::theme::tokens;
 use crate::panel::Panel;
 use crate::sheets::devices::output_choice_ui::output_choice_ui;
 use crate::strings;
 
+/// Greatest width of a message, in points. Its tooltip has the whole text.
+const MESSAGE_WIDTH: f32 = 420.0;
 /// Time for which an output must have stalled before the status bar says so, in seconds: opening it again takes less.
 const STALLED_SECS: f64 = 2.0;
 
@@ -25,9 +28,25 @@ fn has_stalled_for_long(ui: &Ui, is_stalled: bool) -> bool {
     })
 }
 
-/// Draws the status bar and returns the commands of the user. `has_canvas` tells that the canvas is visible, which states
-/// the source of the positions itself.
-pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>, has_canvas: bool) -> Vec<Command> {
+/// Draws that the output with this id is lost, and the button that opens it again; returns the requested command.
+fn lost_ui(ui: &mut Ui, id: &str) -> Option<Command> {
+    let t = tokens(ui.ctx());
+    ui.colored_label(t.error, strings::OUTPUT_LOST);
+    let again = Button::new(RichText::new(strings::OPEN_AGAIN).color(t.on_accent)).fill(t.accent);
+    let again = ui.add(again).on_hover_text(strings::OPEN_AGAIN_HELP);
+    again.clicked().then(|| Command::OpenOutput(id.to_owned()))
+}
+
+/// Draws a label in at most [`MESSAGE_WIDTH`]. A longer text is cut off, and its tooltip has the whole.
+fn narrow_ui(ui: &mut Ui, label: Label) -> Response {
+    let size = vec2(ui.available_width().min(MESSAGE_WIDTH), ui.available_height());
+    let layout = Layout::right_to_left(Align::Center);
+    ui.allocate_ui_with_layout(size, layout, |ui| ui.add(label.truncate())).inner
+}
+
+/// Draws the status bar and returns the commands of the user. `says_source` tells that the canvas states the source of
+/// the positions.
+pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>, says_source: bool) -> Vec<Command> {
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
     ui.horizontal_centered(|ui| {
@@ -53,10 +72,7 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>, has_canvas: bool) -> Vec<Comman
             if status.state == LinkState::Lost
                 && let Some(id) = session.output_id()
             {
-                let again = Button::new(RichText::new(strings::OPEN_AGAIN).color(t.on_accent)).fill(t.accent);
-                if ui.add(again).on_hover_text(strings::OPEN_AGAIN_HELP).clicked() {
-                    commands.push(Command::OpenOutput(id.to_owned()));
-                }
+                commands.extend(lost_ui(ui, id));
             }
             let late = session.latency_ms().map_or(String::new(), |ms| format!("latency about {ms:.0} ms"));
             weak(ui, late, strings::LATENCY_HELP);
@@ -72,12 +88,16 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>, has_canvas: bool) -> Vec<Comman
                 weak(ui, format!("{level:.0} dB re 1 m/s²"), strings::LEVEL_HELP);
             }
         }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            if session.is_long_preparing() {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if let Some(text) = notice(ui.ctx()) {
+                narrow_ui(ui, Label::new(RichText::new(text).color(t.accent)).selectable(false));
+            }
+            // In a blind comparison, it would tell which texture was not played before.
+            if session.is_long_preparing() && !session.is_hidden() {
                 let label = Label::new(RichText::new(strings::PREPARING).color(t.accent)).selectable(false);
                 ui.add(label).on_hover_text(strings::PREPARING_HELP);
             }
-            if !has_canvas {
+            if !says_source {
                 weak(ui, format!("positions: {}", session.label_source()), strings::SOURCE_HELP);
             }
             if session.claimed_output().is_some() {
@@ -88,15 +108,57 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>, has_canvas: bool) -> Vec<Comman
             }
             for message in [session.output_message(), session.pen_message()].into_iter().flatten() {
                 let label = Label::new(RichText::new(message).color(t.error))
-                    .truncate()
                     .show_tooltip_when_elided(false)
                     .sense(Sense::click());
                 let help = format!("{message}\n{}", strings::DISMISS);
-                if ui.add(label).on_hover_text(help).clicked() {
+                if narrow_ui(ui, label).on_hover_text(help).clicked() {
                     commands.push(Command::DismissMessage);
                 }
             }
         });
     });
     commands
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{has_stalled_for_long, lost_ui};
+    use crate::command::Command;
+    use crate::strings;
+    use egui::{Context, RawInput};
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable as _;
+
+    /// An output that is opened again stalls for a moment, which is not worth a message.
+    #[test]
+    fn a_stall_is_said_after_two_seconds() {
+        let ctx = Context::default();
+        let is_said_at = |time_secs: f64, is_stalled: bool| {
+            let mut is_said = false;
+            let input = RawInput { time: Some(time_secs), ..RawInput::default() };
+            let mut output = ctx.run_ui(input, |ui| is_said = has_stalled_for_long(ui, is_stalled));
+            output.textures_delta.clear();
+            is_said
+        };
+        let stalls =
+            [(0.0, true), (1.9, true), (2.1, true), (3.0, false), (4.0, true), (5.5, true), (6.5, true)];
+        let said = stalls.map(|(time_secs, is_stalled)| is_said_at(time_secs, is_stalled));
+        assert_eq!(said, [false, false, true, false, false, false, true]);
+    }
+
+    #[test]
+    fn a_lost_output_is_named_so_and_opened_again_with_one_click() {
+        let mut harness = Harness::builder().build_ui_state(
+            |ui, asked: &mut Option<Command>| {
+                if let Some(command) = lost_ui(ui, "pulse:ci") {
+                    *asked = Some(command);
+                }
+            },
+            None,
+        );
+        assert!(harness.query_by_label(strings::OUTPUT_LOST).is_some());
+        harness.get_by_label(strings::OPEN_AGAIN).click();
+        harness.run_steps(2);
+        assert!(matches!(harness.state(), Some(Command::OpenOutput(id)) if id == "pulse:ci"));
+    }
 }

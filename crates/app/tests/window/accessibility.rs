@@ -7,13 +7,19 @@ use std::collections::BTreeSet;
 
 use egui::{Button, Color32, Context, RichText, Stroke, Theme, pos2, vec2};
 use egui_kittest::Harness;
-use shagreen_app::command::Command;
+use egui_kittest::kittest::NodeT as _;
+use shagreen_app::choices::signals::Slot;
+use shagreen_app::command::signals::SignalsCommand;
+use shagreen_app::command::stroke::StrokeCommand;
+use shagreen_app::command::{Command, FileCommand};
 use shagreen_app::look::theme::{DARK, LIGHT, install};
+use shagreen_app::strings::{document, export, help, import, textures};
+use shagreen_studio::export::WAV;
 use shagreen_studio::project::new_project;
 
 use self::contrast::{contrast, illegible};
 use self::focus::{Stop, focusable, out_of_order, tab_through, unmarked, unnamed};
-use crate::support::{Author, author_at, begin};
+use crate::support::{Author, author_at, begin, wait_for_field, window};
 use crate::views::{Kind, carry_out, each_view};
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
@@ -157,6 +163,33 @@ fn the_tab_key_goes_through_every_view_in_reading_order() {
         faults
     });
     assert_none(&found);
+}
+
+/// A sheet that asks for a text has the keyboard focus in its first field, so that one can type at once.
+#[test]
+fn a_sheet_with_a_field_has_the_focus_there() {
+    let mut harness = opened();
+    wait_for_field(&mut harness);
+    let first = window(&harness).session().textures()[0].id.clone();
+    for (command, field) in [
+        (Command::OpenImport, import::PATHS),
+        (Command::OpenSave, import::SAVE_PATH),
+        (Command::File(FileCommand::SaveAs), document::SAVE_PATH),
+        (Command::File(FileCommand::Export(WAV.id)), export::PATH),
+        (Command::File(FileCommand::AskWhatToOpen), document::OPEN_PATH),
+        (Command::Stroke(StrokeCommand::AskWhatToOpen), document::OPEN_PATH),
+        (Command::Signals(SignalsCommand::AskWhatToOpen(Slot::A)), document::OPEN_PATH),
+        (Command::OpenPalette, help::FIND_COMMAND),
+        (Command::RenameTexture(first), textures::NAME),
+    ] {
+        carry_out(&mut harness, command);
+        harness.run_steps(4);
+        let focused = harness.root().children_recursive().find(egui_kittest::Node::is_focused);
+        let name = focused.and_then(|node| node.accesskit_node().label());
+        assert_eq!(name.as_deref(), Some(field));
+        carry_out(&mut harness, Command::CloseSheet);
+        harness.run_steps(4);
+    }
 }
 
 /// Negative control: a wrong order, a control without a name, and one that is not marked are found.

@@ -1,16 +1,17 @@
 //! Several authored textures: creating, selecting, comparing, snapshots, heat maps and the view.
 
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, TouchPhase, vec2};
+use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, Shape, TouchPhase, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shagreen_app::look::theme::DARK;
 use shagreen_app::strings;
 use shagreen_app::strings::{authored as words, compare, map, view};
 use shagreen_core::space::heat_map::Quantity;
 use shagreen_core::texture::blend::Mode;
 
 use crate::support::{
-    self, Author, author, choose, choose_mode, click, drag, says, unnamed_controls, wait, wait_for_field,
-    window,
+    self, Author, author, choose, choose_mode, click, drag, painted, says, unnamed_controls, wait,
+    wait_for_field, window,
 };
 
 fn slide(harness: &mut Author, name: &str, value: f64) {
@@ -149,7 +150,10 @@ fn a_copy_and_a_snapshot_keep_what_was() {
     take_of_menu(&mut harness, strings::POINT, words::DUPLICATE);
     assert_eq!(names(&harness), [name.clone(), words::copy_of(&name)]);
     let copy = window(&harness).project().texture();
-    assert!((copy.at.rough_smooth - 74.0).abs() < 1e-9, "a little beside");
+    assert!(copy.sounds_like(&window(&harness).project().authored[0]), "exactly the same texture");
+    let other = harness.get_by_label(&words::on_canvas(&name)).rect().center();
+    let point = harness.get_by_label(strings::POINT).rect().center();
+    assert!(point.distance(other) > 12.0, "both are seen");
     take_of_menu(&mut harness, strings::POINT, words::DELETE);
     assert_eq!(names(&harness), std::slice::from_ref(&name));
     take_of_menu(&mut harness, &words::snapshot(1, &name), &words::delete_snapshot(1));
@@ -207,7 +211,47 @@ fn two_textures_are_compared() {
     assert_eq!(heard(&harness), first, "they have changed sides");
 }
 
-/// The card of a contributing texture solos it. The same button and undo end solo.
+/// Whether the point at a position is a disc in the color of the audible texture, and the letters on it.
+fn mark_at(harness: &Author, at: Pos2) -> (bool, Vec<String>) {
+    let shapes = painted(harness, strings::CANVAS);
+    let is_filled = shapes.iter().any(|shape| match shape {
+        Shape::Circle(disc) => disc.fill == DARK.accent && disc.center.distance(at) < 1.0,
+        _ => false,
+    });
+    let is_on_it = |shape: &&Shape| match shape {
+        Shape::Text(text) => text.visual_bounding_rect().center().distance(at) < 4.0,
+        _ => false,
+    };
+    (is_filled, shapes.iter().filter(is_on_it).filter_map(support::words).collect())
+}
+
+/// During a comparison, the canvas shows A and B by their letters, and the audible one as filled. A blind one tells nothing.
+#[test]
+fn the_canvas_marks_the_texture_that_a_comparison_plays() {
+    let mut harness = two();
+    let first = window(&harness).project().authored[0].name.clone();
+    let first = harness.get_by_label(&words::on_canvas(&first)).rect().center();
+    let second = harness.get_by_label(strings::POINT).rect().center();
+    let check = |harness: &Author, filled: [bool; 2], letters: [&str; 2]| {
+        for (i, at) in [first, second].into_iter().enumerate() {
+            let (is_filled, found) = mark_at(harness, at);
+            assert_eq!((is_filled, found.concat().as_str()), (filled[i], letters[i]), "point {i}");
+        }
+    };
+    check(&harness, [false, true], ["", ""]);
+    click(&mut harness, &compare::hear("A"));
+    check(&harness, [true, false], ["A", "B"]);
+    click(&mut harness, &compare::hear("B"));
+    check(&harness, [false, true], ["A", "B"]);
+    click(&mut harness, &compare::hear("X"));
+    check(&harness, [false, false], ["A", "B"]);
+    click(&mut harness, compare::BLIND);
+    check(&harness, [false, false], ["", ""]);
+    click(&mut harness, &compare::hear("A"));
+    check(&harness, [false, false], ["", ""]);
+}
+
+/// The card of a contributing texture solos it. The same button ends solo.
 #[test]
 fn a_neighbor_is_heard_alone() {
     let mut harness = author();
@@ -222,9 +266,7 @@ fn a_neighbor_is_heard_alone() {
     assert_eq!(window(&harness).session().shown_parents(), [(parent, 1.0)]);
     click(&mut harness, &name);
     assert_eq!((support::solo(&harness), window(&harness).project().texture().at), (None, at));
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-    harness.run_steps(2);
-    assert_eq!(support::solo(&harness), Some(parent), "undone");
+    assert!(harness.get_by_label(strings::UNDO).accesskit_node().is_disabled(), "listening leaves no step");
 }
 
 /// A snapshot becomes a texture and is compared with the present state.
@@ -267,7 +309,7 @@ fn maps_are_worked_out_and_shown_with_their_scale() {
 #[test]
 fn the_view_comes_nearer_moves_and_shows_everything_again() {
     let mut harness = author();
-    let cork = |h: &Author| h.get_by_label("Go to Cork").rect().center();
+    let cork = |h: &Author| h.get_by_label("Play Cork").rect().center();
     let before = cork(&harness);
     // Zooming with the wheel keeps the position under the pointer.
     harness.hover_at(before);
@@ -283,11 +325,11 @@ fn the_view_comes_nearer_moves_and_shows_everything_again() {
         harness.run_steps(3);
     }
     harness.run_steps(20);
-    let felt = harness.get_by_label("Go to Felt").rect().center();
+    let felt = harness.get_by_label("Play Felt").rect().center();
     assert!((cork(&harness) - before).length() < 2.0, "{} for {before}", cork(&harness));
     click(&mut harness, view::FIT);
     harness.run_steps(3);
-    assert_ne!(harness.get_by_label("Go to Felt").rect().center(), felt);
+    assert_ne!(harness.get_by_label("Play Felt").rect().center(), felt);
     for _ in 0..12 {
         if harness.get_by_label(view::FARTHER).accesskit_node().is_disabled() {
             break;

@@ -73,6 +73,26 @@ fn read(harness: &mut Author, what: &str, path: &Path) {
     harness.run_steps(2);
 }
 
+/// What is typed after a table was read reaches the field under the pointer.
+#[test]
+fn fields_stay_where_they_are_when_a_table_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let sorts = folder.path().join("sorts.csv");
+    std::fs::write(&sorts, &tables("person ")[0]).unwrap();
+    let mut harness = author();
+    click(&mut harness, Workspace::Build.info().name);
+    harness.run_steps(2);
+    let top =
+        |h: &Author, what: &str| h.get_by_role_and_label(Role::TextInput, &build::path_of(what)).rect().top();
+    let before = [build::RATINGS, build::VOTES].map(|what| top(&harness, what));
+    read(&mut harness, build::SORTING, &sorts);
+    assert!(window(&harness).build().judgments().sorting.read.is_some());
+    let after = [build::RATINGS, build::VOTES].map(|what| top(&harness, what));
+    for (before, after) in before.into_iter().zip(after) {
+        assert!((before - after).abs() < 1.0, "{before} became {after}");
+    }
+}
+
 /// Main use: from judgments to a space in use, and back.
 #[test]
 fn a_space_is_built_looked_at_used_and_undone() {
@@ -194,9 +214,37 @@ fn dropped_tables_become_a_space_that_says_who_judged() {
         let is_simulated = source == "simulated raters";
         let figures = &window(&harness).build().built().unwrap().figures;
         assert!(figures.iter().all(|(_, figure)| figure.title().contains("simulated") == is_simulated));
+        assert_eq!(says(&harness, build::ASSUMED_PEOPLE), !is_simulated);
+        // Positions that features predict are estimates, even if people rated the textures.
+        let from = match window(&harness).build().built().unwrap().build.place_source() {
+            LabelSource::Estimated => strings::PREDICTED_FROM_RATINGS,
+            placed => placed.label(),
+        };
+        assert_eq!(window(&harness).build().built().unwrap().build.source.label(), source);
         use_space(&mut harness);
-        assert!(says(&harness, &format!("Positions: {source}")));
+        assert!(says(&harness, &format!("Positions: {from}")));
     }
+}
+
+/// Ratings on another scale are converted; a rating outside the scale is named.
+#[test]
+fn the_scale_of_the_ratings_can_be_stated() {
+    let mut harness = builder();
+    let [sorting, ratings] = tables("person ");
+    drop_files(&mut harness, &[("b.csv", &ratings), ("a.csv", &sorting)]);
+    wait(&mut harness, "both are read", |h| !window(h).build().judgments().is_reading());
+    harness.run_steps(2);
+    set_number(&mut harness, build::SCALE_HIGH, 7.0);
+    click(&mut harness, build::BUILD_SPACE);
+    assert!(!window(&harness).build().is_building());
+    harness.run_steps(2);
+    assert!(says(&harness, "which is not on the stated scale"), "{:?}", shown(&harness));
+    set_number(&mut harness, build::SCALE_HIGH, 100.0);
+    assert!(!says(&harness, "which is not on the stated scale"));
+    set_number(&mut harness, build::PERMUTATIONS, 19.0);
+    click(&mut harness, build::BUILD_SPACE);
+    let is_done = |h: &Author| window(h).build().built().is_some();
+    wait(&mut harness, "it is built", is_done);
 }
 
 #[test]
@@ -365,7 +413,7 @@ fn every_control_has_a_name() {
     for name in [build::TIES, build::FIRST_AXIS, build::SECOND_AXIS, build::FEATURES, build::SELECTION] {
         assert!(harness.query_by_role_and_label(Role::ComboBox, name).is_some(), "{name}");
     }
-    for name in [build::DIMENSIONS, build::PERMUTATIONS, build::SEED] {
+    for name in [build::DIMENSIONS, build::PERMUTATIONS, build::SEED, build::SCALE_LOW, build::SCALE_HIGH] {
         assert!(harness.query_by_role_and_label(Role::SpinButton, name).is_some(), "{name}");
     }
     let harness = built();

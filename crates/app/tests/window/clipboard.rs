@@ -15,7 +15,7 @@ use crate::support::{Author, author, author_of, author_on, begin, click, says, w
 const SIZE: [f32; 2] = [1280.0, 720.0];
 
 /// Text that the last frame put on the clipboard.
-fn on_clipboard(harness: &Author) -> Option<String> {
+pub(crate) fn on_clipboard(harness: &Author) -> Option<String> {
     harness.output().platform_output.commands.iter().find_map(|command| match command {
         OutputCommand::CopyText(text) => Some(text.clone()),
         _ => None,

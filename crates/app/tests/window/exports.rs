@@ -51,7 +51,7 @@ fn all_authored_textures_are_exported_at_once() {
     harness.run_steps(4);
     click(&mut harness, &export::all_of(2));
     enter_path(&mut harness, export::PATH, &path);
-    wait(&mut harness, "it asks", |h| says(h, &export::exists(2, true)));
+    wait(&mut harness, "it asks", |h| says(h, &export::exists("oak.wav, oak-2.wav", 2)));
     click(&mut harness, import::CANCEL);
     harness.run_steps(3);
 

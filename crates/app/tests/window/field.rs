@@ -112,8 +112,8 @@ fn a_field_shows_its_three_largest_parents_and_counts_the_rest() {
 fn a_locked_texture_is_met_exactly() {
     let mut harness = author();
     wait_for_field(&mut harness);
-    // A click chooses exactly the texture; the field at its position smooths it.
-    click(&mut harness, &strings::go_to("Sanded wood"));
+    // A click plays exactly the texture; the field at its position smooths it.
+    click(&mut harness, &strings::play_texture("Sanded wood"));
     harness.run_steps(2);
     let wood = window(&harness).session().textures().iter().position(|t| t.name == "Sanded wood").unwrap();
     assert_eq!(authored(&harness).parents, [(wood, 1.0)]);
@@ -134,7 +134,7 @@ fn a_locked_texture_is_met_exactly() {
     click(&mut harness, strings::UNDO);
     assert!(!is_locked(&harness, wood));
     // The context menu of the texture on the canvas also pins it.
-    harness.get_by_label(&strings::go_to("Felt")).click_secondary();
+    harness.get_by_label(&strings::play_texture("Felt")).click_secondary();
     harness.run_steps(3);
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     click(&mut harness, &strings::lock("Felt", true));
@@ -244,7 +244,7 @@ fn thousand() -> Library {
             texture.name = format!("Copy {i}");
             texture.picture = None;
             let at = SpacePoint { rough_smooth: (i * 617 % 1000) as f64 * 0.1, hard_soft: i as f64 * 0.1 };
-            texture.place = Some(Place { at, source: LabelSource::PhysicalLabels });
+            texture.place = Some(Place::new(at, LabelSource::PhysicalLabels));
             texture
         })
         .collect();

@@ -44,7 +44,7 @@ pub(crate) fn recording(id: &str, seconds: f64, rate: Hertz) -> String {
 }
 
 /// Drops a recording and answers the questions, until it is fitted.
-fn import_recording(harness: &mut Author, name: &str, text: &str) {
+pub(crate) fn import_recording(harness: &mut Author, name: &str, text: &str) {
     drop_files(harness, &[(name, text.as_bytes())]);
     let unit = import::answer_of("acceleration_unit");
     wait(harness, "the unit is asked for", |h| h.query_by_role_and_label(Role::ComboBox, &unit).is_some());
@@ -87,10 +87,11 @@ fn a_dropped_recording_becomes_a_texture_that_sounds_and_can_be_undone() {
         (&after[..before.len()], after[before.len()..].concat()),
         (&before[..], "Oak board".to_owned())
     );
-    assert!(harness.query_by_label("Go to Oak board").is_none(), "it has no place yet");
+    assert!(harness.query_by_label("Play Oak board").is_none(), "it has no place yet");
 
     click(&mut harness, &strings::texture("Oak board"));
     assert_eq!(solo(&harness), Some(before.len()));
+    wait(&mut harness, "it has played for a moment", |h| !window(h).session().hand_is_running());
     click(&mut harness, strings::HAND_START);
     wait(&mut harness, "it sounds", |h| window(h).session().scope().rms(0.3) > 0.02);
 
@@ -115,9 +116,10 @@ fn a_dropped_recording_lands_near_the_texture_it_was_made_of() {
     let entry = window(&harness).session().textures().last().unwrap().clone();
     let place = entry.place.expect("it has a place");
     assert_eq!(place.source, LabelSource::Estimated);
-    assert!(place.at.distance(carpet) < 20.0, "{} for {carpet}", place.at);
+    // The recording has no landing, so it does not determine the hardness: there it lies at the mean of the labels.
+    assert!((place.at.rough_smooth - carpet.rough_smooth).abs() < 10.0, "{} for {carpet}", place.at);
     assert!(entry.description.contains("nobody rated it") && entry.description.contains('±'));
-    assert!(harness.query_by_label("Go to Rug").is_some(), "it is on the canvas");
+    assert!(harness.query_by_label("Play Rug").is_some(), "it is on the canvas");
 }
 
 /// Another model rate requires another fit. A texture that cannot be interpolated says so. When it is soloed, the
@@ -140,11 +142,12 @@ fn another_model_rate_is_fitted_anew_and_is_heard_alone() {
     harness.get_all_by_label(&strings::texture("Felt")).last().expect("two of that name").click();
     harness.run_steps(2);
     assert_eq!(solo(&harness), Some(before - 1));
+    wait(&mut harness, "it has played for a moment", |h| !window(h).session().hand_is_running());
     click(&mut harness, strings::HAND_START);
     wait(&mut harness, "it sounds at its own rate", |h| window(h).session().scope().rms(0.3) > 1e-3);
-    // A click on a texture of the space ends solo, and the output returns to the rate of the space.
-    click(&mut harness, &strings::go_to("Brick"));
-    wait(&mut harness, "the blend sounds", |h| window(h).session().scope().rms(0.3) > 0.2);
+    // A click on a texture of the space plays that one, and the output returns to the rate of the space.
+    click(&mut harness, &strings::play_texture("Brick"));
+    wait(&mut harness, "the brick sounds", |h| window(h).session().scope().rms(0.3) > 0.2);
 }
 
 #[test]
@@ -179,7 +182,7 @@ fn a_dropped_library_adds_its_textures_with_their_places() {
     let textures = window(&harness).session().textures();
     assert_eq!((textures[n].id.as_str(), textures[n].place), ("cork-2", starter("cork").place));
     assert_eq!((textures[n + 1].id.as_str(), textures[n + 1].place), ("felt-2", None));
-    assert!(harness.query_by_label("Go to My cork").is_some());
+    assert!(harness.query_by_label("Play My cork").is_some());
 }
 
 /// Shortcuts change nothing while a sheet is open, and every control of the sheet has a name.

@@ -63,7 +63,7 @@ fn the_simulated_library_is_opened_and_says_so_wherever_its_places_are_shown() {
     assert!(says(&harness, "positions: simulated raters"));
     harness.key_press_modifiers(Modifiers::COMMAND, Workspace::Author.info().key);
     harness.run_steps(3);
-    harness.get_by_label(&strings::go_to("Cork")).hover();
+    harness.get_by_label(&strings::play_texture("Cork")).hover();
     wait(&mut harness, "the place says whom it is from", |h| says(h, "(simulated raters)"));
 
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
@@ -155,7 +155,7 @@ fn a_texture_that_is_pointed_at_always_has_its_name() {
     let textures = window(&harness).session().textures();
     let nameless = textures.iter().map(|t| t.name.clone()).find(|name| !names.contains(name));
     let nameless = nameless.expect("a heap has more names than room");
-    harness.get_by_label(&strings::go_to(&nameless)).focus();
+    harness.get_by_label(&strings::play_texture(&nameless)).focus();
     harness.run_steps(2);
     assert!(names_on_canvas(&harness).contains(&nameless), "{nameless}");
 }

@@ -10,7 +10,7 @@ use shagreen_core::texture::blend::Mode;
 use shagreen_formats::built_in::BuiltIn;
 
 use crate::support::{
-    self, Author, author, author_on, click, drag, solo, unnamed_controls, wait_for_field, window,
+    self, Author, author, author_on, click, drag, is_locked, solo, unnamed_controls, wait_for_field, window,
 };
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
@@ -41,10 +41,10 @@ fn press(harness: &mut Author, pos: Pos2, button: PointerButton) {
 }
 
 /// Place on the canvas that is far from every texture and from the point.
-fn empty_place(harness: &Author) -> Pos2 {
+pub(crate) fn empty_place(harness: &Author) -> Pos2 {
     let canvas = harness.get_by_role_and_label(Role::Canvas, strings::CANVAS).rect().shrink(90.0);
     let textures = window(harness).session().textures().iter();
-    let center = |name: &str| Some(harness.query_by_label(&strings::go_to(name))?.rect().center());
+    let center = |name: &str| Some(harness.query_by_label(&strings::play_texture(name))?.rect().center());
     let mut taken: Vec<Pos2> = textures.filter_map(|texture| center(&texture.name)).collect();
     taken.push(point(harness));
     let room = |pos: &Pos2| taken.iter().map(|other| pos.distance(*other)).fold(f32::INFINITY, f32::min);
@@ -174,7 +174,8 @@ fn a_texture_is_dragged_onto_the_canvas() {
     harness.get_by_label(&strings::texture(&entry.name)).click_secondary();
     harness.run_steps(3);
     click(&mut harness, textures::CHOOSE);
-    assert_eq!((solo(&harness), at(&harness), names(&harness).len()), (Some(0), place, 1));
+    assert_eq!((solo(&harness), at(&harness), names(&harness).len()), (None, place, 1));
+    assert!(is_locked(&harness, 0));
 }
 
 #[test]

@@ -26,8 +26,8 @@ fn drawn(harness: &Author) -> UserPath {
 /// Draws a path from brick to cotton that takes `secs` seconds and holds at its end.
 fn draw_in_time(harness: &mut Author, secs: f64) {
     click(harness, path::PATH);
-    click(harness, &strings::go_to("Brick"));
-    click(harness, &strings::go_to("Cotton weave"));
+    click(harness, &strings::play_texture("Brick"));
+    click(harness, &strings::play_texture("Cotton weave"));
     choose(harness, path::ALONG, path::TIME);
     choose(harness, path::AT_END, path::HOLD);
     harness.get_by_role_and_label(Role::SpinButton, path::LENGTH).set_value_accesskit(secs);
@@ -39,7 +39,7 @@ fn draw_in_time(harness: &mut Author, secs: f64) {
 
 /// Draws a path freehand through three textures.
 fn draw(harness: &mut Author, [from, by, to]: [&str; 3]) {
-    let places = [from, by, to].map(|name| center(harness, &strings::go_to(name)));
+    let places = [from, by, to].map(|name| center(harness, &strings::play_texture(name)));
     harness.hover_at(places[0]);
     harness.run_steps(2);
     harness.drag_at(places[0]);
@@ -80,11 +80,11 @@ fn a_path_is_drawn_changed_and_undone() {
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
 
     // A click on a texture extends the path to it.
-    click(&mut harness, &strings::go_to("Glass"));
+    click(&mut harness, &strings::play_texture("Glass"));
     let longer = drawn(&harness);
     assert_eq!(longer.points.last(), Some(&place(&harness, "Glass")));
     // Moves a point and deletes it.
-    let (from, to) = (center(&harness, &path::point(1)), center(&harness, &strings::go_to("Denim")));
+    let (from, to) = (center(&harness, &path::point(1)), center(&harness, &strings::play_texture("Denim")));
     harness.hover_at(from);
     harness.run_steps(2);
     harness.drag_at(from);
@@ -111,11 +111,11 @@ fn a_path_is_drawn_changed_and_undone() {
     click(&mut harness, path::CLEAR);
     assert_eq!(window(&harness).project().texture().path, None);
 
-    // Escape turns the path tool off, and clicks move the point again.
+    // Escape turns the path tool off, and a click on a texture plays it again.
     harness.key_press(Key::Escape);
     harness.run_steps(2);
-    click(&mut harness, &strings::go_to("Cork"));
-    assert_eq!(window(&harness).project().texture().at, place(&harness, "Cork"));
+    click(&mut harness, &strings::play_texture("Cork"));
+    assert_eq!(window(&harness).project().solo.as_deref(), Some("cork"));
     assert_eq!(window(&harness).project().texture().path, None);
 }
 
@@ -174,8 +174,8 @@ fn a_path_is_kept_as_a_texture() {
     let mut harness = author();
     wait_for_field(&mut harness);
     click(&mut harness, path::PATH);
-    click(&mut harness, &strings::go_to("Sanded wood"));
-    click(&mut harness, &strings::go_to("Felt"));
+    click(&mut harness, &strings::play_texture("Sanded wood"));
+    click(&mut harness, &strings::play_texture("Felt"));
     click(&mut harness, path::KEEP);
     harness.run_steps(2);
     let session = window(&harness).session();

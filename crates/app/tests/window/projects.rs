@@ -48,17 +48,17 @@ pub(crate) fn menu(harness: &mut Author, entry: &str) {
 }
 
 /// Saves the project to a path in the save sheet.
-fn save_as(harness: &mut Author, path: &Path) {
+pub(crate) fn save_as(harness: &mut Author, path: &Path) {
     keys(harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
     enter_path(harness, document::SAVE_PATH, path);
 }
 
-fn wait_until_saved(harness: &mut Author) {
+pub(crate) fn wait_until_saved(harness: &mut Author) {
     wait(harness, "it is saved", |h| !window(h).document().is_changed());
     harness.run_steps(2);
 }
 
-fn project_in(path: &Path) -> Project {
+pub(crate) fn project_in(path: &Path) -> Project {
     match open::open(path, &Permitted::All).unwrap() {
         Opened::Project(opened) => opened.project,
         Opened::Library(_) => panic!("a project"),

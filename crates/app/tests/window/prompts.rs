@@ -5,13 +5,14 @@ use egui::{Event, Key, Shape};
 use egui_kittest::kittest::Queryable as _;
 use shagreen_app::author::prompt::Origin;
 use shagreen_app::strings;
-use shagreen_app::strings::{import, prompt as words};
+use shagreen_app::strings::{authored, import, prompt as words, relief, textures};
 use shagreen_formats::picture::encode_png;
 use shagreen_formats::picture::{Rgb, decode};
 use shagreen_formats::starter::starter_library;
 
 use crate::support::{
-    Author, author, click, drop_files, painted, says, unnamed_controls, wait, window, write_into,
+    Author, author, click, drop_files, painted, says, unnamed_controls, wait, wait_for_field, window,
+    write_into,
 };
 
 /// Generates a texture from a prompt and waits for it, until it is simulated.
@@ -75,8 +76,8 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     assert!(window(&harness).prompts().guess_of(&moved).unwrap().at().rough_smooth < 50.0);
     click(&mut harness, words::DISMISS);
     assert!(!says(&harness, "Understood:"));
-    // The slider, and twice the simulation and the texture.
-    for _ in 0..5 {
+    // The slider, and twice the texture with its simulation.
+    for _ in 0..3 {
         click(&mut harness, strings::UNDO);
     }
     assert_eq!(window(&harness).project().authored.len(), 1, "undone");
@@ -103,10 +104,45 @@ fn a_generated_texture_is_its_picture_once_it_is_simulated() {
     assert!((n_ridges - n_ridges.round()).abs() < 1e-9, "{n_ridges}");
     assert!((1e3 * map.side_m() - simulated.picture.as_ref().unwrap().millimeters).abs() < 1e-9);
     assert!(says(&harness, words::SIMULATED));
-    // One step of its own.
+    // One step with the texture.
     click(&mut harness, strings::UNDO);
     let undone = window(&harness).project();
-    assert_eq!((undone.authored.len(), undone.joined.len(), &undone.solo), (2, 0, &None));
+    assert_eq!((undone.authored.len(), undone.joined.len(), &undone.solo), (1, 0, &None));
+}
+
+/// What was finished stays: a second prompt changes nothing of the first, unless its texture is used in the whole space.
+#[test]
+fn a_second_prompt_leaves_the_first_texture_as_it_is() {
+    let mut harness = author();
+    describe(&mut harness, "a rough, soft carpet-like surface");
+    let at = window(&harness).project().texture().at.rough_smooth;
+    let moved = if at > 50.0 { at - 3.0 } else { at + 3.0 };
+    harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(moved);
+    harness.run_steps(3);
+    wait_for_field(&mut harness);
+    let heard = |harness: &Author| {
+        let session = window(harness).session();
+        (session.authored().expect("it is shown").clone(), session.spectra().blend.clone())
+    };
+    let (first, before) = (window(&harness).project().texture().clone(), heard(&harness));
+    assert!(before.0.parents.iter().any(|(texture, _)| *texture == 25), "its own texture takes part");
+
+    describe(&mut harness, "grooved hard plastic with 5 mm ridges");
+    let second = window(&harness).project().joined[1].name.clone();
+    click(&mut harness, &authored::select(&first.name));
+    wait_for_field(&mut harness);
+    assert_eq!(heard(&harness), before);
+    write_into(&mut harness, strings::SEARCH, &second);
+    click(&mut harness, &textures::more(&second));
+    harness.run_steps(3);
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    click(&mut harness, textures::WHOLE_SPACE);
+    harness.run_steps(2);
+    wait_for_field(&mut harness);
+    assert!(window(&harness).project().own.len() == 1 && heard(&harness) != before);
+    click(&mut harness, strings::UNDO);
+    wait_for_field(&mut harness);
+    assert_eq!((window(&harness).project().own.len(), heard(&harness)), (2, before));
 }
 
 #[test]
@@ -175,9 +211,7 @@ fn typing_goes_on_while_a_texture_is_made_and_each_result_is_one_step() {
     harness.key_press(Key::Enter);
     wait(&mut harness, "another was made", |h| window(h).project().authored.len() == 3);
     wait_for_simulation(&mut harness);
-    for _ in 0..2 {
-        click(&mut harness, strings::UNDO);
-    }
+    click(&mut harness, strings::UNDO);
     assert_eq!(window(&harness).project().authored.len(), 2, "each is undone on its own");
     // Elsewhere the letter is a shortcut again.
     harness.run_steps(2);
@@ -212,6 +246,7 @@ fn a_photo_finds_its_place_and_what_is_none_is_told() {
     let bytes = encode_png(&Rgb { width, height, pixels }).unwrap();
     let mut harness = author();
     drop_files(&mut harness, &[("a wall.png", &bytes)]);
+    click(&mut harness, relief::FIND_POINT);
     wait(&mut harness, "it landed", |h| window(h).project().authored.len() == 2);
     harness.run_steps(4);
     let landed = window(&harness).project().texture();
@@ -219,6 +254,7 @@ fn a_photo_finds_its_place_and_what_is_none_is_told() {
     assert!(landed.at.distance(texture.at().unwrap()) < 35.0, "{}", landed.at);
     assert!(landed.picture.is_some() && says(&harness, "is not known"));
     drop_files(&mut harness, &[("broken.png", &bytes[..300])]);
+    click(&mut harness, relief::FIND_POINT);
     wait(&mut harness, "it is told", |h| says(h, "broken.png"));
     assert_eq!(window(&harness).project().authored.len(), 2);
 }

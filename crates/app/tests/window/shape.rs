@@ -10,6 +10,7 @@ use shagreen_app::state::edit::Edit;
 use shagreen_app::strings;
 use shagreen_app::strings::shape as words;
 use shagreen_core::dsp::spectrum::{centroid, rms};
+use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::profile::Profile;
 use shagreen_core::texture::relief::Relief;
@@ -74,7 +75,7 @@ fn shape(harness: &Author) -> Shape {
     window(harness).project().texture().shape
 }
 
-fn set(harness: &mut Author, control: ShapeControl, value: f64) {
+pub(crate) fn set(harness: &mut Author, control: ShapeControl, value: f64) {
     harness.get_by_role_and_label(Role::Slider, &words::slider(control)).set_value_accesskit(value);
     harness.run_steps(3);
 }
@@ -86,7 +87,7 @@ fn press(harness: &mut Author, name: &str) {
 }
 
 /// Opens the group of the controls.
-fn open(harness: &mut Author) {
+pub(crate) fn open(harness: &mut Author) {
     click(harness, words::HEADING);
     harness.run_steps(10);
 }
@@ -170,6 +171,52 @@ fn mixed_textures_are_shaped_too() {
     }
 }
 
+/// A control with nothing to act on is disabled and says why; it returns with a texture that has it.
+#[test]
+fn a_control_with_nothing_to_act_on_says_why() {
+    let mut library = starter_library().unwrap();
+    for texture in &mut library.textures {
+        // Grain that is equal in all directions, and nothing else.
+        let grain = TextureModel::new(texture.model.rate(), texture.model.nodes().to_vec(), None);
+        texture.model = grain.unwrap();
+    }
+    let mut harness = author_on(library, [1280.0, 1000.0]);
+    wait_for_field(&mut harness);
+    open(&mut harness);
+    let idle =
+        [ShapeControl::Softness, ShapeControl::Friction, ShapeControl::Relief, ShapeControl::Direction];
+    for control in ShapeControl::ALL {
+        assert_eq!(is_disabled(&harness, control), idle.contains(&control), "{control:?}");
+    }
+    for control in idle {
+        // A screen reader may set a disabled slider.
+        set(&mut harness, control, *control.limits().end());
+        harness.get_by_role_and_label(Role::Slider, &words::slider(control)).hover();
+        wait(&mut harness, "it says why", |h| says(h, words::nothing(control)));
+        harness.remove_cursor();
+        harness.run_steps(4);
+    }
+    assert_eq!(shape(&harness), Shape::default());
+    // A value that another texture needs can be made neutral.
+    carry_out(&mut harness, Command::Edit(Edit::SetShape(ShapeControl::Relief, 2.0)));
+    assert!(is_disabled(&harness, ShapeControl::Relief));
+    press(&mut harness, &words::reset(ShapeControl::Relief));
+    assert_eq!(shape(&harness), Shape::default());
+
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    open(&mut harness);
+    for control in ShapeControl::ALL {
+        // No texture of the starter library has a relief.
+        assert_eq!(is_disabled(&harness, control), control == ShapeControl::Relief, "{control:?}");
+    }
+}
+
+fn is_disabled(harness: &Author, control: ShapeControl) -> bool {
+    let name = words::slider(control);
+    harness.get_by_role_and_label(Role::Slider, &name).accesskit_node().is_disabled()
+}
+
 /// A whole drag of a slider is one step. While it lasts, the texture plays.
 #[test]
 fn a_drag_of_a_slider_is_one_step_and_is_heard() {
@@ -233,12 +280,13 @@ fn the_lay_is_shown_and_turns() {
     let mut harness = author();
     wait_for_field(&mut harness);
     let lay_deg = |harness: &Author| window(harness).session().lay().map(|lay| lay.0.to_degrees().round());
-    click(&mut harness, &strings::go_to("Glass"));
+    click(&mut harness, &strings::play_texture("Glass"));
     harness.run_steps(4);
     assert_eq!(lay_deg(&harness), None);
-    click(&mut harness, &strings::go_to("Brushed aluminium"));
+    click(&mut harness, &strings::play_texture("Brushed aluminium"));
     harness.run_steps(4);
     assert_eq!(lay_deg(&harness), Some(90.0));
+    click(&mut harness, strings::textures::CHOOSE);
     carry_out(&mut harness, Command::Edit(Edit::SetShape(ShapeControl::Direction, 30.0)));
     wait(&mut harness, "the texture is turned", |h| lay_deg(h) == Some(120.0));
 }

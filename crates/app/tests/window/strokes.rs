@@ -71,8 +71,10 @@ fn a_stroke_is_recorded_and_repeated_until_a_person_strokes() {
     assert!(window(&harness).session().recording().is_none());
     let recorded = session_stroke(&harness).clone();
     let (samples, secs) = (recorded.samples(), recorded.track().duration_secs());
-    assert!(samples[0].touching && samples[0].time_secs == 0.0 && secs > 0.5, "{secs} s");
-    assert_eq!(samples.iter().filter(|sample| !sample.touching).count(), 1, "the lift at its end");
+    assert!(!samples[0].touching && samples[0].time_secs == 0.0 && secs > 0.5, "{secs} s");
+    assert!(samples[1].touching && samples[1].time_secs < 0.02, "it lands at once");
+    let n_lifted = samples.iter().filter(|sample| !sample.touching).count();
+    assert_eq!(n_lifted, 2, "before its landing and at its end");
     // 180 points correspond to 60 mm.
     let way_m = samples[samples.len() - 1].x_m - samples[0].x_m;
     assert!((way_m - 0.06).abs() < 0.003, "{way_m} m");

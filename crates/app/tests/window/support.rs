@@ -158,6 +158,23 @@ pub(crate) fn click(harness: &mut Author, name: &str) {
     harness.run_steps(2);
 }
 
+/// Clicks twice at a position, within the time of a double click: both clicks are in successive frames.
+pub(crate) fn double_click(harness: &mut Author, pos: egui::Pos2) {
+    harness.hover_at(pos);
+    harness.run_steps(2);
+    for _ in 0..2 {
+        let button = |pressed| egui::Event::PointerButton {
+            pos,
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        harness.input_mut().events.extend([button(true), button(false)]);
+        harness.step();
+    }
+    harness.run_steps(2);
+}
+
 /// Drags from one position to another.
 pub(crate) fn drag(harness: &mut Author, from: egui::Pos2, to: egui::Pos2) {
     harness.hover_at(from);
@@ -256,5 +273,6 @@ pub(crate) fn drop_files(harness: &mut Author, files: &[(&str, &[u8])]) {
         Arc::new(InMemory { path: PathBuf::from(name), bytes: bytes.to_vec() }) as egui::DroppedFileHandle
     });
     harness.input_mut().dropped_files.extend(handles);
-    harness.run_steps(2);
+    // A sheet that asks about them is not drawn in its first frame.
+    harness.run_steps(4);
 }

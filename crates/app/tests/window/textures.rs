@@ -173,7 +173,7 @@ fn a_texture_is_renamed_in_one_step() {
     assert_eq!(window(&harness).session().textures()[0].name, "Glass pane");
     click(&mut harness, strings::help::CLOSE);
     assert!(harness.query_by_label(&strings::texture("Glass pane")).is_some());
-    assert!(harness.query_by_label(&strings::go_to("Glass pane")).is_some(), "on the canvas too");
+    assert!(harness.query_by_label(&strings::play_texture("Glass pane")).is_some(), "on the canvas too");
     undo(&mut harness);
     assert_eq!(window(&harness).session().textures()[0].name, "Glass");
     assert!(window(&harness).project().renamed.is_empty());

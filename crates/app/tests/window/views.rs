@@ -11,6 +11,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::Begin;
 use shagreen_app::choices::signals::{FromA, Slot, View};
 use shagreen_app::choices::tour::Step;
+use shagreen_app::command::relief::ReliefCommand;
 use shagreen_app::command::signals::SignalsCommand;
 use shagreen_app::command::stroke::StrokeCommand;
 use shagreen_app::command::{Command, FileCommand};
@@ -101,7 +102,7 @@ fn author_views(harness: &mut Author, look: &mut Look<'_>) {
     carry_out(harness, Command::TogglePathTool);
     show(harness, look, "Author, path tool", Kind::Workspace);
     for name in ["Brick", "Cotton weave"] {
-        click(harness, &strings::go_to(name));
+        click(harness, &strings::play_texture(name));
     }
     assert!(window(harness).project().texture().path.is_some());
     show(harness, look, "Author, path", Kind::Workspace);
@@ -196,7 +197,10 @@ fn sheets(harness: &mut Author, look: &mut Look<'_>) {
         ("shortcuts", Command::OpenShortcuts),
         ("palette", Command::OpenPalette),
         ("guide", Command::OpenGuide),
+        ("about", Command::OpenAbout),
         ("texture", Command::OpenTexture(first)),
+        ("relief", Command::Relief(ReliefCommand::Begin(None, None))),
+        ("use of a picture", Command::File(FileCommand::Open("leather.png".into()))),
     ] {
         carry_out(harness, command);
         // Lists of outputs, pens and folders come from the background.

@@ -1,8 +1,8 @@
 //! Mel-frequency cepstral coefficients (MFCC): framing, window, spectrum, mel filter bank, logarithm, cosine transform.
 //!
 //! Common implementations differ in every step: python_speech_features, librosa with either mel scale, and scripts
-//! modeled on the Hidden Markov Model Toolkit (HTK). One routine covers them; [`MfccOptions`] names each step. Golden
-//! vectors check it against the first two. A [`MfccPlan`] precomputes everything that does not depend on the signal.
+//! modeled on the Hidden Markov Model Toolkit (HTK). One routine covers them; [`MfccOptions`] selects the variant.
+//! Golden vectors check it against the first two. An [`MfccPlan`] precomputes all that does not depend on the signal.
 //!
 //! ```
 //! use shagreen_core::dsp::mfcc::{MfccPlan, recommended};

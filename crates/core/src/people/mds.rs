@@ -2,19 +2,21 @@
 //! the dissimilarities.
 //!
 //! The objective is stress-1, `sqrt(Σ (d - d̂)² / Σ d²)`. Here `d` are the distances, and the disparities `d̂` are
-//! their isotonic regression on the dissimilarities. Squared stress has a continuous gradient, which can be computed
-//! with the disparities held fixed. A gradient step of the largest size that majorization guarantees is exactly one
-//! SMACOF step (de Leeuw 1977, Guttman transform). This solver starts with such a step, adds curvature from previous
-//! steps (L-BFGS), and accepts a step only if stress decreases. It reaches stationary points in a fraction of SMACOF's
-//! steps.
+//! their regression on the dissimilarities: isotonic, or linear for interval scaling ([`Transform`]). Squared stress
+//! has a continuous gradient, which can be computed with the disparities held fixed. A gradient step of the largest
+//! size that majorization guarantees is exactly one SMACOF step (de Leeuw 1977, Guttman transform). This solver starts
+//! with such a step, adds curvature from previous steps (L-BFGS), and accepts a step only if stress decreases. It
+//! reaches stationary points in a fraction of SMACOF's steps.
 //!
 //! Stress does not depend on translation, rotation, reflection or scale, so the result is normalized. Points are
 //! centered, and their axes are principal axes in order of decreasing variance. The coordinate of largest magnitude on
 //! each axis is positive. The sum of squared distances equals the sum of squared dissimilarities.
 
 mod axes;
+mod degeneracy;
 mod descent;
 mod objective;
+mod random_stress;
 mod sorter;
 mod start;
 
@@ -24,6 +26,9 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use crate::maths::rng::derive_seed;
 use crate::people::dissimilarities::Dissimilarities;
+pub use crate::people::mds::degeneracy::{Degeneracy, degeneracy};
+pub use crate::people::mds::random_stress::expected_random_stress;
+
 use crate::people::mds::axes::settle;
 use crate::people::mds::descent::{Stop, descend};
 use crate::people::mds::objective::Objective;
@@ -38,20 +43,23 @@ pub const MAX_ITEMS: usize = 1 << 16;
 /// Name of the random stream of the classical start.
 const CLASSICAL: &str = "classical start";
 
-/// Treatment of tied (equal) dissimilarities.
+/// Transformation of the dissimilarities into disparities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ties {
-    /// Tied pairs may have different disparities (Kruskal's primary approach).
-    Primary,
-    /// Tied pairs get the same disparity (Kruskal's secondary approach).
-    Secondary,
+pub enum Transform {
+    /// Monotone; tied (equal) dissimilarities may have different disparities (Kruskal's primary approach).
+    PrimaryTies,
+    /// Monotone; tied dissimilarities get the same disparity (Kruskal's secondary approach).
+    SecondaryTies,
+    /// Linear with a slope of 0 or more and without negative disparities: interval scaling, which is metric. It cannot
+    /// merge different dissimilarities, so it has no degenerate solution of clusters ([`degeneracy()`]).
+    Interval,
 }
 
 /// Options for scaling; [`MdsOptions::usual`] gives reasonable defaults.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MdsOptions {
-    /// Treatment of ties.
-    pub ties: Ties,
+    /// Transformation of the dissimilarities.
+    pub transform: Transform,
     /// Number of random starts in addition to the classical start. The result with the lowest stress is kept.
     pub n_random_starts: usize,
     /// Seed for the random starts.
@@ -86,7 +94,7 @@ pub struct ShepardPair {
     pub dissimilarity: f64,
     /// Distance between the two points.
     pub distance: f64,
-    /// Disparity of the pair: its distance after isotonic regression on the dissimilarities.
+    /// Disparity of the pair: its distance after regression on the dissimilarities.
     pub disparity: f64,
 }
 
@@ -152,6 +160,17 @@ pub enum MdsError {
     OnePoint,
 }
 
+impl Transform {
+    /// Identifier for files and scripts.
+    pub fn id(self) -> &'static str {
+        match self {
+            Self::PrimaryTies => "primary",
+            Self::SecondaryTies => "secondary",
+            Self::Interval => "interval",
+        }
+    }
+}
+
 impl MdsOptions {
     /// Default options: primary ties, twenty random starts, and a relative tolerance of ten digits.
     ///
@@ -170,11 +189,13 @@ impl MdsOptions {
     /// Secondary ties are therefore better when few participants take part or when all agree. Their configurations vary
     /// less between panels, and their stress is two to three times as high.
     pub fn usual(seed: u64) -> Self {
-        Self { ties: Ties::Primary, n_random_starts: 20, seed, tolerance: 1e-10, max_steps: 2000 }
+        let transform = Transform::PrimaryTies;
+        Self { transform, n_random_starts: 20, seed, tolerance: 1e-10, max_steps: 2000 }
     }
 }
 
-/// Configuration with the lowest stress of all starts, in `dims` dimensions.
+/// Configuration with the lowest stress of all starts, in `dims` dimensions. It is nonmetric unless the transformation
+/// is [`Transform::Interval`].
 ///
 /// Items of dissimilarity 0 may coincide but need not. Pairs that were never compared carry no weight. Cost: one sort
 /// of the pairs, one eigendecomposition (cubic in the number of items), and tens of steps per start, each linear in the
@@ -189,7 +210,7 @@ pub fn nonmetric(
 ) -> Result<Mds, MdsError> {
     check(dissimilarities, dims)?;
     let classical = Classical::new(dissimilarities).in_dims(dims, derive_seed(options.seed, CLASSICAL));
-    let objective = Objective::new(dissimilarities, options.ties);
+    let objective = Objective::new(dissimilarities, options.transform);
     best(dissimilarities, &objective, dims, options, vec![classical], &|| true)
 }
 
@@ -205,14 +226,14 @@ pub fn nonmetric_from(
     let flat = flat(dissimilarities, start)?;
     check(dissimilarities, start[0].len())?;
     let options = MdsOptions { n_random_starts: 0, ..options.clone() };
-    let objective = Objective::new(dissimilarities, options.ties);
+    let objective = Objective::new(dissimilarities, options.transform);
     best(dissimilarities, &objective, start[0].len(), &options, vec![flat], &|| true)
 }
 
 /// Scaling in one number of dimensions after the other, of the same dissimilarities.
 pub struct ByDimension<'a> {
     dissimilarities: &'a Dissimilarities,
-    options: &'a MdsOptions,
+    options: MdsOptions,
     classical: Classical,
     objective: Objective<'a>,
 }
@@ -222,10 +243,11 @@ impl<'a> ByDimension<'a> {
     ///
     /// # Errors
     /// See [`MdsError`].
-    pub fn new(dissimilarities: &'a Dissimilarities, options: &'a MdsOptions) -> Result<Self, MdsError> {
+    pub fn new(dissimilarities: &'a Dissimilarities, options: &MdsOptions) -> Result<Self, MdsError> {
         check(dissimilarities, 1)?;
-        let objective = Objective::new(dissimilarities, options.ties);
-        Ok(Self { dissimilarities, options, classical: Classical::new(dissimilarities), objective })
+        let objective = Objective::new(dissimilarities, options.transform);
+        let classical = Classical::new(dissimilarities);
+        Ok(Self { dissimilarities, options: options.clone(), classical, objective })
     }
 
     /// Best configuration for each number of dimensions. The best configuration with one dimension fewer, `before` for
@@ -248,7 +270,7 @@ impl<'a> ByDimension<'a> {
             if let Some(before) = all.last().or(before) {
                 starts.push(start::with_axis(&before.points, derive_seed(seed, "another axis")));
             }
-            all.push(best(self.dissimilarities, &self.objective, dims, self.options, starts, go_on)?);
+            all.push(best(self.dissimilarities, &self.objective, dims, &self.options, starts, go_on)?);
         }
         Ok(all)
     }
@@ -261,11 +283,11 @@ impl<'a> ByDimension<'a> {
 pub fn shepard(
     dissimilarities: &Dissimilarities,
     points: &[Vec<f64>],
-    ties: Ties,
+    transform: Transform,
 ) -> Result<Vec<ShepardPair>, MdsError> {
     let flat = flat(dissimilarities, points)?;
     check(dissimilarities, points[0].len())?;
-    let mut objective = Objective::new(dissimilarities, ties);
+    let mut objective = Objective::new(dissimilarities, transform);
     objective.evaluate(points[0].len(), &flat, &mut vec![0.0; flat.len()]);
     Ok(objective.shepard())
 }
@@ -274,8 +296,12 @@ pub fn shepard(
 ///
 /// # Errors
 /// See [`MdsError`].
-pub fn stress(dissimilarities: &Dissimilarities, points: &[Vec<f64>], ties: Ties) -> Result<f64, MdsError> {
-    let pairs = shepard(dissimilarities, points, ties)?;
+pub fn stress(
+    dissimilarities: &Dissimilarities,
+    points: &[Vec<f64>],
+    transform: Transform,
+) -> Result<f64, MdsError> {
+    let pairs = shepard(dissimilarities, points, transform)?;
     let sum = |of: fn(&ShepardPair) -> f64| pairs.iter().map(of).sum::<f64>();
     Ok((sum(|p| (p.distance - p.disparity).powi(2)) / sum(|p| p.distance.powi(2))).sqrt())
 }

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::units::Hertz;
+
 /// Extent of a finding, and its first occurrence.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Where {
@@ -131,6 +133,20 @@ pub enum Finding {
         /// Highest force, in N.
         most_n: f64,
     },
+    /// The vibration is implausibly strong or weak for a texture; the unit of acceleration may be wrong.
+    ImplausibleAcceleration {
+        /// Root mean square without the mean, in m/s².
+        level_mps2: f64,
+    },
+    /// Narrow lines at the frequency of the mains or its harmonics, with the same level at every tip speed.
+    MainsHum {
+        /// Frequencies of the lines, ascending.
+        lines: Vec<Hertz>,
+        /// Smallest excess of the strongest line over the spectrum around it, in dB, over the tip speeds.
+        above_db: f64,
+        /// Whether the recording has several tip speeds. If not, the lines may come from the surface.
+        has_speeds: bool,
+    },
     /// Segments too short to contain low frequencies; they are left out.
     Fragments {
         /// Number of segments.
@@ -176,6 +192,8 @@ impl Finding {
             Self::SignedForce(_) => "signed force",
             Self::ImplausibleSpeed { .. } => "implausible speed",
             Self::ImplausibleForce { .. } => "implausible force",
+            Self::ImplausibleAcceleration { .. } => "implausible acceleration",
+            Self::MainsHum { .. } => "mains hum",
             Self::Fragments { .. } => "fragments",
             Self::SpeedFromPositions => "speed from positions",
             Self::Constant { .. } => "constant",
@@ -256,6 +274,26 @@ impl fmt::Display for Finding {
                     f,
                     "the force reaches {most_n:.0} N; a stylus is pressed with up to 10 N, check the unit"
                 )
+            }
+            Self::ImplausibleAcceleration { level_mps2 } => {
+                let digits: usize = if *level_mps2 < 1.0 { 6 } else { 0 };
+                write!(
+                    f,
+                    "the vibration has {level_mps2:.digits$} m/s² rms; textures have about 0.05 to 20 m/s², check the unit of acceleration (1 g is 9.81 m/s²) and the full scale"
+                )
+            }
+            Self::MainsHum { lines, above_db, has_speeds } => {
+                let lines: Vec<String> = lines.iter().map(|line| format!("{:.0}", line.0)).collect();
+                let noun = if lines.len() == 1 { "line" } else { "lines" };
+                write!(f, "{noun} at {} Hz, {above_db:.0} dB above the spectrum around ", lines.join(", "))?;
+                if *has_speeds {
+                    write!(f, "at every tip speed: probably mains hum; it becomes part of the texture")
+                } else {
+                    write!(
+                        f,
+                        "at the only tip speed: mains hum, or a period of the surface; a recording at another speed tells them apart"
+                    )
+                }
             }
             Self::Fragments { n, seconds } => {
                 write!(f, "{n} segments between rows left out, {seconds:.3} s in total, are too short to use")

@@ -7,6 +7,7 @@ use crate::recording::axis::Axis;
 use crate::recording::bounds::{ACCELERATION, FORCE, POSITION, SPEED};
 use crate::recording::clock::{Count, Timeline, read_clock};
 use crate::recording::dropout::{check_signal, dead_value, is_rest, mark_dropouts};
+use crate::recording::hum::mains_hum;
 use crate::recording::missing::{fill_slower, mark_missing};
 use crate::recording::motion::speed_from_positions;
 use crate::recording::plausible::check_plausible;
@@ -125,7 +126,10 @@ impl Recording {
             recording.force_n[at].copy_from_slice(&track_of(&force_n, &timeline, stretch));
         }
         match check_plausible(&recording, &mut findings) {
-            None => Ok((recording, findings)),
+            None => {
+                findings.extend(mains_hum(&recording));
+                Ok((recording, findings))
+            }
             Some(fault) => Err(RecordingError { faults: vec![fault], findings }),
         }
     }

@@ -1,6 +1,6 @@
-//! Plausibility checks of tip speed and force, which reveal wrong units.
+//! Plausibility checks of tip speed, force and acceleration, which reveal wrong units.
 
-use crate::dsp::spectrum::median;
+use crate::dsp::spectrum::{median, rms};
 use crate::recording::bounds::SPEED;
 use crate::recording::{Fault, Finding, Recording};
 
@@ -12,7 +12,11 @@ const FASTEST_MPS: f64 = 5.0;
 /// Highest plausible force on a stylus in N, with a wide margin.
 const STRONGEST_N: f64 = 100.0;
 
-/// Reports implausible motion as findings, and returns a fault if the motion is impossible.
+/// Range of plausible vibration levels in m/s² rms, with a wide margin: measured textures have 0.05 to 20 m/s².
+const WEAKEST_MPS2: f64 = 1e-3;
+const HEAVIEST_MPS2: f64 = 100.0;
+
+/// Reports implausible motion and vibration as findings, and returns a fault if the motion is impossible.
 pub(super) fn check_plausible(recording: &Recording, findings: &mut Vec<Finding>) -> Option<Fault> {
     let inside = |values: &[f64]| -> Vec<f64> {
         recording.usable.iter().flat_map(|range| values[range.clone()].iter().copied()).collect()
@@ -32,7 +36,23 @@ pub(super) fn check_plausible(recording: &Recording, findings: &mut Vec<Finding>
     if most_n > STRONGEST_N {
         findings.push(Finding::ImplausibleForce { most_n });
     }
+    let level_mps2 = level_mps2(recording);
+    // A recording without any vibration has its own messages.
+    if level_mps2 > 0.0 && !(WEAKEST_MPS2..=HEAVIEST_MPS2).contains(&level_mps2) {
+        findings.push(Finding::ImplausibleAcceleration { level_mps2 });
+    }
     None
+}
+
+/// Root mean square of the acceleration without its mean in each usable range, which is gravity or an offset.
+fn level_mps2(recording: &Recording) -> f64 {
+    let mut vibration = Vec::new();
+    for range in &recording.usable {
+        let part = &recording.acceleration_mps2[range.clone()];
+        let mean = part.iter().sum::<f64>() / part.len().max(1) as f64;
+        vibration.extend(part.iter().map(|x| x - mean));
+    }
+    rms(&vibration)
 }
 
 #[cfg(test)]
@@ -92,6 +112,30 @@ mod tests {
             said.len() == 1 && said[0].starts_with("implausible force: the force reaches 980 N"),
             "{said:?}"
         );
+    }
+
+    /// Noise of a uniform distribution in -1..1 has a root mean square of 0.577, whatever its offset is.
+    #[test]
+    fn accelerations_in_a_wrong_unit_are_said() {
+        for (times, words) in [
+            (1.0, None),
+            (170.0, None),
+            (1000.0, Some("577 m/s² rms")),
+            (0.002, None),
+            (1e-4, Some("0.000058 m/s² rms")),
+        ] {
+            let mut scaled = raw(RawMotion::Speed(swing(0.1)), RawTrack::Constant(1.0));
+            let noise = lcg_noise(N_ROWS, 7);
+            let to_rms = times * 3.0_f64.sqrt().recip() / crate::dsp::spectrum::rms(&noise);
+            scaled.acceleration_mps2 = vec![noise.iter().map(|x| 9.81 + to_rms * x).collect()];
+            let (_, findings) = Recording::from_raw(scaled).expect("a recording");
+            let said: Vec<String> = findings.iter().map(ToString::to_string).collect();
+            let found = said.iter().find(|text| text.starts_with("implausible acceleration: "));
+            match words {
+                Some(words) => assert!(found.is_some_and(|text| text.contains(words)), "{said:?}"),
+                None => assert_eq!(found, None, "{times}"),
+            }
+        }
     }
 
     #[test]

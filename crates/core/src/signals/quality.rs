@@ -6,6 +6,9 @@
 //! (Okamoto and Yamada), and the temporal envelope. A weighted sum of the distances predicts d′, the discriminability
 //! of two signals in standard deviations. [`st_sim`] and [`spqi`] are published measures for comparison.
 //!
+//! The model applies to a signal and a processed version of it, whose waveforms correlate ([`Agreement`]). A d′ above
+//! [`MOST_D_PRIME`] is stated as "above" it.
+//!
 //! Signals are accelerations in m/s². They are compared in segments of [`SEGMENT_SECS`], the length of the paper's
 //! stimuli. Channel activations depend on the bin spacing, and therefore on the segment length.
 
@@ -15,6 +18,7 @@ mod d_prime;
 mod features;
 mod model;
 mod real_transform;
+mod relation;
 mod similarity;
 #[cfg(test)]
 mod tests;
@@ -28,6 +32,7 @@ pub use crate::signals::quality::model::{
     Elimination, PAPER_FEATURES, PAPER_PAIRS, PAPER_RATE, PAPER_WEIGHTS, QualityModel, QualityModelError,
     RatedPair, Rotation, Term, eliminate, nested_r_squared, rotate,
 };
+pub use crate::signals::quality::relation::{Agreement, Relation};
 pub use crate::signals::quality::similarity::{snr_db, spqi, st_sim};
 
 use self::channels::Channels;
@@ -35,6 +40,10 @@ use self::features::{FeatureMeter, Measured};
 
 /// Length of a compared segment, in s.
 pub const SEGMENT_SECS: f64 = 0.8;
+
+/// Largest d′ that is stated as a number. At 5, an unbiased observer answers 99.4 % of yes-no questions correctly
+/// ([`proportion_correct`]), so that larger values mean the same.
+pub const MOST_D_PRIME: f64 = 5.0;
 
 /// A feature that two signals are compared by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

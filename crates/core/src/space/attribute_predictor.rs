@@ -7,6 +7,7 @@
 
 use crate::maths::gaussian_process::{Estimate, GaussianProcess, GaussianProcessError};
 use crate::maths::least_squares::{LeastSquaresError, least_squares};
+use crate::maths::statistics::{mean, standard_deviation};
 use crate::space::features::{Physical, physical};
 use crate::texture::TextureModel;
 use crate::texture::patterns::paper_patterns;
@@ -116,6 +117,18 @@ fn band_shares_db(plane: &Plane, contacts: &[Contact]) -> [Option<f64>; N_BANDS]
     }
     let highest = 0.5 * plane.rate().0;
     std::array::from_fn(|band| (n > 0.0 && BANDS_HZ[band + 1] <= highest).then(|| sums[band] / n))
+}
+
+/// Mean and standard deviation of each attribute over the training textures: the estimate for a texture about which
+/// nothing is known. A prediction with at least this standard deviation says nothing about its texture.
+pub fn without_features(known: &[Known]) -> Vec<Estimate> {
+    let n_attributes = known.first().map_or(0, |texture| texture.attributes.len());
+    let of = |attribute: usize| {
+        let values: Vec<f64> =
+            known.iter().filter_map(|texture| texture.attributes.get(attribute)).copied().collect();
+        Estimate { mean: mean(&values), deviation: standard_deviation(&values) }
+    };
+    (0..n_attributes).map(of).collect()
 }
 
 /// Attributes of a texture, predicted from textures with known attributes, in their order and clamped to 0..100.
@@ -233,7 +246,9 @@ fn within(estimate: Estimate) -> Estimate {
 
 #[cfg(test)]
 mod tests {
-    use super::{AttributeError, Known, leave_one_out, linear_leave_one_out, predict, quantities};
+    use super::{
+        AttributeError, Known, leave_one_out, linear_leave_one_out, predict, quantities, without_features,
+    };
     use crate::maths::rng::Random;
     use crate::texture::{GrainNode, TextureModel};
     use crate::units::{Hertz, MetersPerSecond, Newtons};
@@ -317,6 +332,21 @@ mod tests {
         for (quick, anew) in quick[0].iter().zip(&anew) {
             assert!((quick.mean - anew.mean).abs() < 3.0, "{quick:?} {anew:?}");
         }
+    }
+
+    /// Values 0, 50 and 100: mean 50 and standard deviation 50.
+    #[test]
+    fn without_features_the_estimate_is_that_of_the_labels() {
+        let mut known = known(3, false);
+        for (texture, value) in known.iter_mut().zip([0.0, 50.0, 100.0]) {
+            texture.attributes = vec![value, 20.0];
+        }
+        let labels = without_features(&known);
+        assert_eq!(labels.len(), 2);
+        let (first, second) = (labels[0], labels[1]);
+        assert!((first.mean - 50.0).abs() < 1e-12 && (first.deviation - 50.0).abs() < 1e-12, "{first:?}");
+        assert_eq!((second.mean, second.deviation), (20.0, 0.0));
+        assert!(without_features(&[]).is_empty());
     }
 
     #[test]

@@ -13,6 +13,7 @@ pub use crate::space::sampled::Layers;
 use self::layers::mean_tap;
 use crate::maths::natural_neighbor::NaturalNeighbors;
 use crate::space::inverse_distance::inverse_distance;
+use crate::space::mean_axes::MeanAxes;
 use crate::space::{Location, Space, SpacePoint};
 use crate::texture::blend::Mode;
 use crate::texture::shape::Shape;
@@ -258,8 +259,9 @@ impl Authoring {
                 };
                 // A weighted mean of textures is a valid texture; if rounding makes it invalid, the output is silent.
                 let mean = |models: &Models| {
-                    let model = models.mean(&authored.parents).ok()?;
-                    Some(self.layered(model, models, &authored.parents))
+                    let axes = models.axes(&authored.parents);
+                    let model = models.mean(&authored.parents, &axes).ok()?;
+                    Some(self.layered(model, models, &authored.parents, &axes))
                 };
                 authored.model = models.and_then(mean);
             }
@@ -275,8 +277,9 @@ impl Authoring {
                     authored.parents = models.weights(reached);
                     // Far from all textures, a spectrum may exceed the limits of a texture model; then the output is
                     // silent.
-                    let model = models.texture(reached, None).ok();
-                    authored.model = model.map(|model| self.layered(model, models, &authored.parents));
+                    let axes = models.axes(&authored.parents);
+                    let model = models.texture(reached, &axes, None).ok();
+                    authored.model = model.map(|model| self.layered(model, models, &authored.parents, &axes));
                     authored.lock = self.lock(reached, &blending.locked);
                     if let Some((locked, share)) = authored.lock {
                         for (texture, weight) in &mut authored.parents {
@@ -300,19 +303,26 @@ impl Authoring {
         match (authored.lock, self.models.as_deref()) {
             // An invalid texture gives `None`, as in `author`.
             (Some(lock), Some(models)) => {
-                let model = models.texture(authored.location.at, Some(lock)).ok()?;
-                Some(self.layered(model, models, &authored.parents))
+                let axes = models.axes(&authored.parents);
+                let model = models.texture(authored.location.at, &axes, Some(lock)).ok()?;
+                Some(self.layered(model, models, &authored.parents, &axes))
             }
             _ => authored.model,
         }
     }
 
-    /// `model` with the layers that are combined by the weights of the textures, without reliefs and height maps if
-    /// they are disabled.
-    fn layered(&self, model: TextureModel, models: &Models, parents: &[(usize, f64)]) -> TextureModel {
-        let model = model.with_stick_slip(models.stick_slip(parents)).with_turn_rad(models.turn_rad(parents));
+    /// `model` in these axes, with the layers that are combined by the weights of the textures, without reliefs and height
+    /// maps if they are disabled.
+    fn layered(
+        &self,
+        model: TextureModel,
+        models: &Models,
+        parents: &[(usize, f64)],
+        axes: &MeanAxes,
+    ) -> TextureModel {
+        let model = model.with_stick_slip(models.stick_slip(parents)).with_turn_rad(axes.turn_rad);
         if self.has_reliefs {
-            model.with_relief(models.relief(parents)).with_height_map(models.height_map(parents))
+            model.with_relief(models.relief(parents)).with_height_map(models.height_map(parents, axes))
         } else {
             model
         }

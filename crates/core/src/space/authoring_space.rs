@@ -70,7 +70,7 @@ pub enum LabelSource {
     SimulatedRaters,
     /// Physical quantities replace ratings; no person felt the textures.
     PhysicalLabels,
-    /// Estimated from words, a picture or a recording; no person felt the texture.
+    /// Estimated from words, a picture, a recording or vibration features; the position is no rating.
     Estimated,
 }
 

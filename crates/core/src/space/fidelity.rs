@@ -7,9 +7,10 @@
 
 use crate::dsp::ar::comparison_frequencies;
 use crate::dsp::spectrum::{rms, welch};
-use crate::texture::blend::{Mode, mixture_psd};
+use crate::maths::statistics::mean;
+use crate::texture::blend::{Mode, mixture_psd, mixture_psd_toward};
 use crate::texture::plane::Plane;
-use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
+use crate::units::{Contact, Hertz, MetersPerSecond, Newtons, Radians};
 
 /// Number of frequency channels.
 pub const N_CHANNELS: usize = 40;
@@ -166,6 +167,19 @@ pub fn error_db(a: &Profile, b: &Profile) -> f64 {
     (squares.sum::<f64>() / a.channels_db.len() as f64).sqrt()
 }
 
+/// Root-mean-square difference of the channel levels in dB that remains when the overall level is known: one gain in dB,
+/// the same in all conditions and channels, is added to `a` so that its mean channel level equals that of `b`.
+///
+/// With `d` the differences and `m` their mean, it is `sqrt(mean((d - m)²))`, so that `error² = shape² + m²` with the
+/// error of [`error_db`]. What remains is the shape of the spectra and their dependence on speed and force. A pure level
+/// difference has a shape error of 0.
+pub fn shape_error_db(a: &Profile, b: &Profile) -> f64 {
+    let differences: Vec<f64> = a.channels_db.iter().zip(&b.channels_db).map(|(a, b)| a - b).collect();
+    let mean = mean(&differences);
+    let squares = differences.iter().map(|difference| (difference - mean).powi(2));
+    (squares.sum::<f64>() / differences.len() as f64).sqrt()
+}
+
 /// Mean absolute difference of the total vibration level over conditions, in dB.
 pub fn level_error_db(a: &Profile, b: &Profile) -> f64 {
     let differences = a.levels_db.iter().zip(&b.levels_db).map(|(a, b)| (a - b).abs());
@@ -176,15 +190,40 @@ pub fn level_error_db(a: &Profile, b: &Profile) -> f64 {
 /// `sqrt(Σ w² σ²)` for independent signals and `Σ w σ` with level compensation. For signals that share one excitation,
 /// it is the square root of the integral of the density. All parents must have the same sample rate.
 pub fn mixture_level_mps2(parents: &[(&Plane, f64)], mode: Mode, contact: Contact) -> f64 {
-    let levels = || parents.iter().map(|(plane, weight)| weight * plane.at(contact).level_mps2);
+    let levels: Vec<f64> = parents.iter().map(|(plane, w)| w * plane.at(contact).level_mps2).collect();
+    level_of(parents, mode, &levels, |frequencies| mixture_psd(parents, mode, contact, frequencies))
+}
+
+/// As [`mixture_level_mps2`], which is for a stroke across the lay of each plane, for a stroke in a direction on the pad:
+/// an angle from its x axis, counterclockwise.
+pub fn mixture_level_toward_mps2(
+    parents: &[(&Plane, f64)],
+    mode: Mode,
+    contact: Contact,
+    direction: Radians,
+) -> f64 {
+    let level = |(plane, w): &(&Plane, f64)| w * plane.toward(contact, direction).level_mps2;
+    let levels: Vec<f64> = parents.iter().map(level).collect();
+    level_of(parents, mode, &levels, |frequencies| {
+        mixture_psd_toward(parents, mode, contact, direction, frequencies)
+    })
+}
+
+/// Level of a mixture from the weighted levels of its parents, or from its density.
+fn level_of(
+    parents: &[(&Plane, f64)],
+    mode: Mode,
+    levels: &[f64],
+    psd: impl Fn(&[Hertz]) -> Vec<f64>,
+) -> f64 {
     match (mode, parents) {
         (_, []) => 0.0,
-        (_, [_]) | (Mode::Power, _) => levels().sum(),
-        (Mode::Paper, _) => levels().map(|l| l * l).sum::<f64>().sqrt(),
+        (_, [_]) | (Mode::Power, _) => levels.iter().sum(),
+        (Mode::Paper, _) => levels.iter().map(|l| l * l).sum::<f64>().sqrt(),
         (Mode::Shared | Mode::Parametric | Mode::Field, [(first, _), ..]) => {
             let step_hz = 0.5 * first.rate().0 / N_STEPS as f64;
             let frequencies: Vec<Hertz> = (0..=N_STEPS).map(|i| Hertz(i as f64 * step_hz)).collect();
-            let psd = mixture_psd(parents, mode, contact, &frequencies);
+            let psd = psd(&frequencies);
             let ends = 0.5 * (psd[0] + psd[N_STEPS]);
             (step_hz * (psd.iter().sum::<f64>() - ends)).sqrt()
         }

@@ -13,6 +13,7 @@ use pulp::{Arch, Simd, WithSimd};
 use crate::maths::smoother::{Smoother, Surface, scattered};
 use crate::maths::triangulation::Xy;
 use crate::space::field::anisotropy::Anisotropy;
+use crate::space::mean_axes::MeanAxes;
 use crate::space::sampled::{SampledGrain, Sampling};
 use crate::texture::tap::Tap;
 use crate::texture::{TextureModel, TextureModelError};
@@ -86,6 +87,8 @@ pub(crate) struct Site<'a> {
     pub(crate) grain: &'a SampledGrain,
     /// Grain along the lay; `None` for an isotropic texture.
     pub(crate) along: Option<&'a SampledGrain>,
+    /// Angle of the texture's x axis on the pad, counterclockwise, in rad.
+    pub(crate) turn_rad: f64,
     pub(crate) friction: Option<f64>,
     pub(crate) tap: Option<Tap>,
 }
@@ -120,7 +123,8 @@ impl Field {
         })
     }
 
-    /// Texture at a point of the unit square, optionally moved by a weight of 0..1 towards the texture of a site.
+    /// Texture at a point of the unit square, optionally moved by a weight of 0..1 towards the texture of a site. Its grains
+    /// are those across and along the lay of `axes`.
     ///
     /// # Errors
     /// [`TextureModelError`] if the result is not a valid texture, which is possible far from all textures.
@@ -128,6 +132,7 @@ impl Field {
         &self,
         sampling: &Sampling,
         at: Xy,
+        axes: &MeanAxes,
         towards: Option<(Site<'_>, f64)>,
     ) -> Result<TextureModel, TextureModelError> {
         let scores: Vec<f32> = self.scores.at(at).into_iter().map(|score| score as f32).collect();
@@ -135,7 +140,7 @@ impl Field {
         Arch::new().dispatch(AddAll { scores: &scores, components: &self.components, to: &mut ln_psd });
         let mut ln_friction = self.friction.as_ref().map(|surface| surface.at(at)[0]);
         let mut tap = self.tap.as_ref().map(|surface| surface.at(at));
-        let difference = self.anisotropy.as_ref().map(|of| of.at(&self.weights(at), towards));
+        let differences = self.anisotropy.as_ref().map(|of| of.at(&self.weights(at), axes, towards));
         if let Some((own, share)) = towards {
             let mix = |field: f64, own: f64| field + share * (own - field);
             for (field, own) in ln_psd.iter_mut().zip(&own.grain.ln_psd) {
@@ -150,11 +155,14 @@ impl Field {
                 }
             }
         }
-        let along = difference.map(|difference| {
-            let along: Vec<f32> = ln_psd.iter().zip(difference).map(|(across, more)| across + more).collect();
-            sampling.nodes_of_spectra(&along)
-        });
-        let across = sampling.nodes_of_spectra(&ln_psd);
+        let nodes = |difference: &[f32]| {
+            let ln_psd: Vec<f32> = ln_psd.iter().zip(difference).map(|(field, more)| field + more).collect();
+            sampling.nodes_of_spectra(&ln_psd)
+        };
+        let (across, along) = match &differences {
+            Some([across, along]) => (nodes(across), Some(nodes(along))),
+            None => (sampling.nodes_of_spectra(&ln_psd), None),
+        };
         sampling.texture(across, along, ln_friction.map(f64::exp), tap.map(|tap| tap_from_ln(&tap)))
     }
 

@@ -3,7 +3,9 @@
 //!
 //! For each removed texture, everything is recomputed from the remaining textures: triangulation, sampled models,
 //! principal components and the field with its ridge parameter. Nothing of the removed texture enters the interpolated
-//! texture.
+//! texture except its position. A position that was computed from the vibration of the texture, like the roughness of
+//! physical labels from its level, contains part of the answer; [`Outcome::shape_error_db`] excludes the overall
+//! level.
 
 mod rest;
 mod signals;
@@ -12,7 +14,9 @@ use crate::dsp::spectrum::median;
 use crate::maths::statistics::mean;
 use crate::maths::triangulation::TriangulationError;
 use crate::space::authoring::{Blending, BlendingError, ModelsError};
-use crate::space::fidelity::{Channels, Profile, error_db, is_within_measured, level_error_db};
+use crate::space::fidelity::{
+    Channels, Profile, error_db, is_within_measured, level_error_db, shape_error_db,
+};
 use crate::space::{Space, SpacePoint};
 use crate::texture::TextureModel;
 use crate::texture::rate::AtRateError;
@@ -81,6 +85,8 @@ pub struct Summary {
     pub error_db_median: f64,
     /// Mean absolute level difference, in dB.
     pub level_error_db_mean: f64,
+    /// Mean of [`Outcome::shape_error_db`], in dB.
+    pub shape_error_db_mean: f64,
     /// Fraction of textures for which the original is the closest of all textures to the interpolated texture.
     pub rank1: f64,
     /// Fraction of textures for which the original is among the five closest.
@@ -133,6 +139,9 @@ pub struct Outcome {
     pub error_db: f64,
     /// Mean absolute level difference, in dB.
     pub level_error_db: f64,
+    /// Spectral distance that remains when the overall level of the original is known, in dB
+    /// ([`crate::space::fidelity::shape_error_db`]). Positions that were computed from levels do not lower it.
+    pub shape_error_db: f64,
     /// Rank of the original among all textures by distance from the interpolated one, starting at 1.
     pub rank: usize,
     /// Normalized similarity `1 - d / reach`: one for identical models, zero for a distance equal to that of the two
@@ -342,6 +351,7 @@ fn outcome(authored: &Profile, original: usize, profiles: &[Profile], reach_db: 
     Outcome {
         error_db: distance,
         level_error_db: level_error_db(authored, &profiles[original]),
+        shape_error_db: shape_error_db(authored, &profiles[original]),
         rank: 1 + profiles.iter().filter(|other| error_db(authored, other) < distance).count(),
         nrs: (reach_db > 0.0).then_some(1.0 - distance / reach_db),
         signal_error_db: None,
@@ -360,6 +370,7 @@ fn summary(method: Method, outcomes: &[&Outcome], signals: Option<SignalCheck>) 
         error_db_mean: mean(&errors_db),
         error_db_median: median(errors_db),
         level_error_db_mean: mean(&of(|outcome| outcome.level_error_db)),
+        shape_error_db_mean: mean(&of(|outcome| outcome.shape_error_db)),
         rank1: within(1),
         top5: within(5),
         nrs_mean: nrs.map(|nrs| mean(&nrs)),

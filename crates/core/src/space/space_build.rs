@@ -14,6 +14,7 @@
 mod adjectives;
 mod axes;
 mod error;
+mod scaling;
 mod stability;
 mod step;
 mod validation;
@@ -23,7 +24,7 @@ use std::collections::BTreeSet;
 
 use crate::dsp::mfcc::MfccOptions;
 use crate::people::dissimilarities::Dissimilarities;
-use crate::people::mds::{ByDimension, MAX_DIMS, Mds, MdsError, MdsOptions, ShepardPair, shepard};
+use crate::people::mds::{MAX_DIMS, Mds, MdsError, MdsOptions, ShepardPair, Transform};
 use crate::people::ratings::{AdjectivePair, RaterFit, Rating, RatingTable, RelevanceVote, rater_fits};
 use crate::people::sorting::{Similarity, Sort, SortingError, similarity};
 use crate::space::features::{
@@ -36,12 +37,16 @@ use crate::texture::patterns::{PAPER_RATE, PAPER_SECS, PatternPlan, paper_patter
 pub use crate::space::space_build::adjectives::Adjective;
 pub use crate::space::space_build::axes::{Axis, Prediction, TRUSTED_NESTED_R};
 pub use crate::space::space_build::error::SpaceBuildError;
+pub use crate::space::space_build::scaling::DegenerateScaling;
 pub use crate::space::space_build::stability::{MIN_DRAWN, Stability};
 pub use crate::space::space_build::step::Step;
-pub use crate::space::space_build::validation::{kruskal_word, validation_summary};
+pub use crate::space::space_build::validation::{
+    kruskal_word, stress_in_words, stress_of_random_data, validation_summary,
+};
 
 use crate::space::space_build::adjectives::fit_adjectives;
 use crate::space::space_build::axes::{Axes, fit_axes};
+use crate::space::space_build::scaling::{Scaled, scaled};
 use crate::space::space_build::stability::{Drawn, stability};
 use crate::space::space_build::step::Progress;
 
@@ -67,6 +72,9 @@ pub struct SpaceOptions {
     pub n_dims: usize,
     /// Options of the multidimensional scaling.
     pub mds: MdsOptions,
+    /// Transformation of the dissimilarities. `None` uses that of `mds`, and interval scaling instead if its solution is
+    /// degenerate ([`DegenerateScaling`]).
+    pub transform: Option<Transform>,
     /// Adjective pairs of the two axes, the pole at 0 first. `None` selects rough-smooth and hard-soft if both are
     /// usable: rated, not excluded by relevance votes, and with a direction in the perceptual space. Otherwise `None`
     /// selects, for each of the first two dimensions of the perceptual space, the usable pair whose ratings have the
@@ -125,7 +133,7 @@ pub struct SpaceBuild {
     pub not_sorted: Vec<String>,
     /// Source of the judgments.
     pub source: LabelSource,
-    /// Options that were used.
+    /// Options that were used. `mds` holds the transformation that gave the perceptual space.
     pub options: SpaceOptions,
     /// Similarities from the sorts.
     pub similarity: Similarity,
@@ -133,6 +141,8 @@ pub struct SpaceBuild {
     pub stress: Vec<f64>,
     /// Perceptual space from multidimensional scaling.
     pub perceptual: Mds,
+    /// A degenerate solution: the perceptual space, or the one that interval scaling replaced.
+    pub degenerate: Option<DegenerateScaling>,
     /// Shepard diagram of the perceptual space.
     pub shepard: Vec<ShepardPair>,
     /// All rated adjective pairs, in the order of the ratings.
@@ -166,6 +176,7 @@ impl SpaceOptions {
         Self {
             n_dims: 2,
             mds: MdsOptions::usual(seed),
+            transform: None,
             axes: None,
             is_orthogonal: false,
             features: FeatureKind::Mfcc,
@@ -212,10 +223,9 @@ pub fn build_space(
 
     progress.begin(Step::Scaling)?;
     let in_words = |error| named(error, &textures);
-    let scaling = ByDimension::new(&dissimilarities, &options.mds).map_err(in_words)?;
-    let mut by_dimension = scaling.best(1..=options.n_dims, None, &|| progress.go_on()).map_err(in_words)?;
-    let perceptual = by_dimension[options.n_dims - 1].clone();
-    let shepard = shepard(&dissimilarities, &perceptual.points, options.mds.ties)?;
+    let Scaled { scaling, options: mds, mut by_dimension, perceptual, shepard, degenerate } =
+        scaled(&dissimilarities, options, &|| progress.go_on()).map_err(in_words)?;
+    let options = &SpaceOptions { mds, ..options.clone() };
     let judged = Judged {
         data,
         table: &table,
@@ -224,6 +234,7 @@ pub fn build_space(
         textures: &textures,
         similarity: &similarity,
         perceptual: &perceptual,
+        degenerate,
     };
     // Of solutions with more dimensions, only the stress is reported, and nothing else depends on it. They are
     // therefore computed in parallel with all other steps. Scaling needs more textures than dimensions.
@@ -241,6 +252,7 @@ pub fn build_space(
         source: data.source,
         options: options.clone(),
         stress: by_dimension.iter().map(|mds| mds.stress).collect(),
+        degenerate,
         shepard,
         adjectives,
         raters,
@@ -268,6 +280,7 @@ struct Judged<'a> {
     not_sorted: Vec<&'a str>,
     similarity: &'a Similarity,
     perceptual: &'a Mds,
+    degenerate: Option<DegenerateScaling>,
 }
 
 /// Results that follow from the perceptual space; see the fields of [`SpaceBuild`].
@@ -285,10 +298,11 @@ struct Rest {
 
 impl Judged<'_> {
     fn continued(&self, options: &SpaceOptions, progress: &Progress<'_>) -> Result<Rest, SpaceBuildError> {
-        let Self { data, table, sorted, not_sorted, textures, similarity, perceptual } = self;
+        let Self { data, table, sorted, not_sorted, textures, similarity, perceptual, degenerate } = self;
         progress.begin(Step::Adjectives)?;
-        let mut findings = warnings::of_sorting(data, similarity, table, not_sorted, options.mds.ties);
-        findings.extend(warnings::of_scaling(perceptual, options.n_dims));
+        let mut findings = warnings::of_sorting(data, similarity, table, not_sorted, options.mds.transform);
+        findings.extend(degenerate.as_ref().map(warnings::of_degenerate));
+        findings.extend(warnings::of_scaling(perceptual, options));
         let adjectives = fit_adjectives(table, &data.votes, textures, &perceptual.points, &mut findings)?;
         let raters: Vec<(String, RaterFit)> =
             table.participants().iter().cloned().zip(rater_fits(table)).collect();
@@ -369,6 +383,18 @@ fn features(
         FeatureKind::MfccAndPhysical => per_pattern(textures, &plan, Statistic::Mean, go_on)?
             .beside(&physical_table(textures, &contacts)?),
     })
+}
+
+impl SpaceBuild {
+    /// Source of the positions. Positions that a model predicts on an axis are estimates, even if people's judgments
+    /// trained the model. Those from simulated raters stay marked as such.
+    pub fn place_source(&self) -> LabelSource {
+        let is_predicted = self.axes.iter().any(|axis| axis.placed_by == PlacedBy::Predicted);
+        match self.source {
+            LabelSource::HumanRatings if is_predicted => LabelSource::Estimated,
+            source => source,
+        }
+    }
 }
 
 fn positions([first, second]: &[Axis; 2]) -> Vec<SpacePoint> {

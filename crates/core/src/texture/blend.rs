@@ -1,7 +1,7 @@
 //! Interpolation modes between textures, and the spectrum of a mixture of signals.
 
 use crate::texture::plane::{Grain, Plane};
-use crate::units::{Contact, Hertz};
+use crate::units::{Contact, Hertz, Radians};
 
 /// Interpolation mode: how parent textures are combined into one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -59,17 +59,35 @@ pub fn mixture_psd(
     frequencies: &[Hertz],
 ) -> Vec<f64> {
     let grains: Vec<(Grain, f64)> = parents.iter().map(|(plane, w)| (plane.at(contact), *w)).collect();
+    psd_of_grains(&grains, mode, frequencies)
+}
+
+/// As [`mixture_psd`], which is for a stroke across the lay of each plane, for a stroke in a direction on the pad: an angle
+/// from its x axis, counterclockwise.
+pub fn mixture_psd_toward(
+    parents: &[(&Plane, f64)],
+    mode: Mode,
+    contact: Contact,
+    direction: Radians,
+    frequencies: &[Hertz],
+) -> Vec<f64> {
+    let grain = |(plane, w): &(&Plane, f64)| (plane.toward(contact, direction), *w);
+    let grains: Vec<(Grain, f64)> = parents.iter().map(grain).collect();
+    psd_of_grains(&grains, mode, frequencies)
+}
+
+fn psd_of_grains(grains: &[(Grain, f64)], mode: Mode, frequencies: &[Hertz]) -> Vec<f64> {
     match mode {
-        Mode::Paper => independent_psd(&grains, 1.0, frequencies),
+        Mode::Paper => independent_psd(grains, 1.0, frequencies),
         Mode::Power => {
             let parts = grains.iter().map(|(g, w)| w * g.level_mps2);
             let (sum, squares) = parts.fold((0.0, 0.0), |(s, q), p| (s + p, q + p * p));
             let makeup = if squares > 0.0 { sum * sum / squares } else { 1.0 };
-            independent_psd(&grains, makeup, frequencies)
+            independent_psd(grains, makeup, frequencies)
         }
         Mode::Shared | Mode::Parametric | Mode::Field => {
             let mut sum = vec![(0.0, 0.0); frequencies.len()];
-            for (grain, weight) in &grains {
+            for (grain, weight) in grains {
                 for (s, (re, im)) in sum.iter_mut().zip(grain.response(frequencies)) {
                     s.0 += weight * re;
                     s.1 += weight * im;

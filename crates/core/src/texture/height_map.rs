@@ -12,10 +12,11 @@
 //! x points to the right and y up, as in the picture of a texture: the first row of heights is the lowest row of the
 //! picture. The tile repeats in both directions.
 
-mod blend;
+mod common_tile;
 mod error;
 mod levels;
 mod oracle;
+mod quarter_turn;
 #[cfg(test)]
 mod tests;
 
@@ -26,6 +27,7 @@ use crate::texture::limits::FORCES_N;
 use crate::texture::relief::MAX_MPS2;
 use crate::units::Newtons;
 
+pub use crate::texture::height_map::common_tile::{CommonTile, TilePart};
 pub use crate::texture::height_map::error::HeightMapError;
 pub use crate::texture::height_map::levels::HeightMapLevels;
 
@@ -158,11 +160,16 @@ impl HeightMap {
     /// [`HeightMap::new`] are reduced.
     #[must_use]
     pub fn stretched(&self, factor: f64) -> Self {
-        let factor = if factor.is_finite() && factor > 0.0 { factor } else { 1.0 };
-        let side_m = (factor * self.side_m).clamp(*SIDES_M.start(), *SIDES_M.end());
+        let side_m = self.stretched_side_m(factor);
         // On another side, the contact patch averages other waves.
         let levels = if side_m == self.side_m { self.levels.clone() } else { KeptLevels::default() };
         Self { side_m, levels, ..self.clone() }.scaled(1.0)
+    }
+
+    /// Side in m of the tile of [`HeightMap::stretched`] with this factor.
+    pub fn stretched_side_m(&self, factor: f64) -> f64 {
+        let factor = if factor.is_finite() && factor > 0.0 { factor } else { 1.0 };
+        (factor * self.side_m).clamp(*SIDES_M.start(), *SIDES_M.end())
     }
 
     /// Distance between two heights, in m.
@@ -175,7 +182,8 @@ impl HeightMap {
     fn strongest_mps2(&self) -> (usize, f64) {
         let n = self.n;
         let per_square = (REFERENCE_MPS / self.step_m()).powi(2);
-        let at = |column: usize, row: usize| self.heights_m[row % n * n + column % n];
+        // A division would take most of the time; n is a power of two.
+        let at = |column: usize, row: usize| self.heights_m[(row & (n - 1)) * n + (column & (n - 1))];
         let bound = |index: usize| {
             // One step back on a periodic tile is n - 1 steps ahead.
             let (i, j) = (index % n, index / n);

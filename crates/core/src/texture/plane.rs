@@ -1,5 +1,6 @@
 //! Speed-force plane of a texture: measured nodes, the boundary around them, and the interpolation between.
 
+mod fade;
 mod prepared;
 mod radial;
 mod refined;
@@ -17,6 +18,7 @@ use crate::dsp::lsf::ar_from_lsf;
 use crate::maths::triangulation::{Triangulation, Xy};
 use crate::texture::boundary::{BoundaryModel, boundary};
 use crate::texture::height_map::HeightMap;
+use crate::texture::plane::fade::fading;
 use crate::texture::plane::radial::RadialGrain;
 use crate::texture::plane::values::{Strength, Values};
 use crate::texture::relief::Relief;
@@ -29,7 +31,7 @@ use crate::units::{Contact, Hertz, Radians};
 /// Measured nodes are interpolated in one of two ways.
 /// - Barycentric, in the Delaunay triangles over speed and force, each divided by its maximum. Silent nodes at zero
 ///   speed or force, and copies of measured nodes along the edges of highest speed and force, close the range
-///   ([`crate::texture::boundary`]).
+///   ([`crate::texture::boundary`]). Between the axes and the lowest measured speeds and forces, the level fades to zero.
 /// - By radial basis functions, constant beyond the measured range. Below the lowest measured speed or force, the level
 ///   decreases linearly to zero at zero speed or force.
 ///
@@ -205,9 +207,20 @@ impl Plane {
         values
     }
 
+    /// Grain at `contact`, as [`Plane::at`], for a stroke in a direction on the pad: an angle from its x axis,
+    /// counterclockwise.
+    pub fn toward(&self, contact: Contact, direction: Radians) -> Grain {
+        self.at_angle(contact, Radians(direction.0 - self.surface.turn_rad))
+    }
+
     /// Plane of the grain along the lay; `None` for an isotropic texture.
     pub fn along(&self) -> Option<&Self> {
         self.along.as_deref()
+    }
+
+    /// Angle of the texture's x axis on the pad, counterclockwise.
+    pub fn turn(&self) -> Radians {
+        Radians(self.surface.turn_rad)
     }
 
     /// Direction of the lay on the pad, as an angle from its x axis, counterclockwise; `None` for an isotropic texture.
@@ -215,9 +228,19 @@ impl Plane {
         self.along.is_some().then_some(Radians(FRAC_PI_2 + self.surface.turn_rad))
     }
 
+    /// Friction for the renderer; `None` without a known kinetic coefficient.
+    pub fn friction(&self) -> Option<Friction> {
+        self.surface.friction
+    }
+
     /// Position-dependent relief, if the texture has one.
     pub fn relief(&self) -> Option<&Arc<Relief>> {
         self.surface.relief.as_ref()
+    }
+
+    /// Height map, if the texture has one.
+    pub fn height_map(&self) -> Option<&Arc<HeightMap>> {
+        self.surface.height_map.as_ref()
     }
 
     /// Model rate.
@@ -258,7 +281,7 @@ impl Plane {
     }
 }
 
-/// Measured nodes and the boundary around them.
+/// Measured nodes, the boundary around them, and the nodes of the fade to it.
 fn closed(nodes: &[GrainNode], places: &[Xy], highest: Contact) -> Vec<(Xy, Values)> {
     let measured = nodes.iter().map(|n| Values::measured(n.lsf.clone(), n.level_mps2));
     let mut points: Vec<(Xy, Values)> = places.iter().copied().zip(measured).collect();
@@ -268,6 +291,8 @@ fn closed(nodes: &[GrainNode], places: &[Xy], highest: Contact) -> Vec<(Xy, Valu
         let place = [at.speed.0 / highest.speed.0, at.force.0 / highest.force.0];
         points.push((place, Values::measured(node.lsf.clone(), if silent { 0.0 } else { node.level_mps2 })));
     }
+    let fading = fading(&points, nodes.len());
+    points.extend(fading);
     points
 }
 

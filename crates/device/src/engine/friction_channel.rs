@@ -1,8 +1,10 @@
 //! Channel for a display that renders friction: the level of friction over time, as the amplitude of a sine or as it is.
 //!
 //! The level is the kinetic coefficient of the mixed textures over [`FULL_FRICTION`], times its variation over place, and
-//! zero while the tip is lifted. It is computed [`STEPS`] times in a tick of the vibration, is linear in between, and is
-//! output with the delay of the vibration, so that both belong to the same tip position.
+//! zero while the tip is lifted. Both fade at a change of the mix. It is computed [`STEPS`] times in a tick of the vibration, is
+//! linear in between, and is output with the delay of the vibration, so that both belong to the same tip position.
+
+mod faded_mix;
 
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -11,11 +13,12 @@ use shagreen_synth::contact::{Contact, ContactSource, Place};
 use shagreen_synth::relief::Passage;
 use shagreen_synth::renderer::{Mix, Textures};
 use shagreen_synth::resampler::Resampler;
-use shagreen_synth::stick_slip::{Friction, MASS_KG};
+use shagreen_synth::stick_slip::MASS_KG;
 use shagreen_synth::texture::Texture;
 
 use super::FADE_SECS;
 use super::meter::Ramp;
+use crate::engine::friction_channel::faded_mix::FadedMix;
 
 /// Kinetic friction coefficient at level 1.
 pub const FULL_FRICTION: f32 = 1.0;
@@ -66,6 +69,8 @@ pub(super) struct FrictionChannel {
     delay_secs: f64,
     /// Kinetic coefficient, which fades at a change of the mix.
     kinetic: f32,
+    /// Textures whose variation over place is felt, with weights that fade at a change of the mix.
+    faded: FadedMix,
     /// Time in s since the tip moved.
     rested_secs: f64,
     /// 1 while the tip moves, fading to 0 while it rests.
@@ -93,6 +98,7 @@ impl FrictionChannel {
             rate_hz: f64::from(device_rate_hz),
             delay_secs,
             kinetic: 0.0,
+            faded: FadedMix::default(),
             rested_secs: 0.0,
             motion: 1.0,
             passage: Passage::default(),
@@ -145,6 +151,7 @@ impl FrictionChannel {
         let kinetic_before = self.kinetic;
         let fade = (1.0 - (-tick_secs / FADE_SECS).exp()) as f32;
         self.kinetic += fade * (mean_kinetic(textures, mix) - kinetic_before);
+        self.faded.follow(mix, (tick_secs / FADE_SECS) as f32);
         let way_m = (x_m.1 - x_m.0).hypot(y_m.1 - y_m.0) / f64::from(STEPS);
         self.rested_secs = if way_m > 0.0 { 0.0 } else { self.rested_secs + tick_secs };
         let motion_before = self.motion;
@@ -158,7 +165,7 @@ impl FrictionChannel {
             let place_m = [x_m, y_m].map(|(from_m, to_m)| from_m + done * (to_m - from_m));
             let touching = between(touches.0, touches.1) * between(motion_before, self.motion);
             let kinetic = between(kinetic_before, self.kinetic) * touching;
-            let level = kinetic / FULL_FRICTION * mean_variation(textures, mix, place_m, way_m);
+            let level = kinetic / FULL_FRICTION * self.mean_variation(textures, done as f32, place_m, way_m);
             // A number that is not finite is no level either.
             let level = if level > 0.0 { level.min(1.0) } else { 0.0 };
             if self.points.len() >= POINTS {
@@ -166,6 +173,20 @@ impl FrictionChannel {
             }
             self.points.push_back((from_secs + done * tick_secs, level));
         }
+    }
+
+    /// Weighted mean of the variation of friction over place after a share of the tick, at a position on the pad. What the
+    /// weights lack of 1 has no variation, so that the variation of a texture fades with its weight; textures whose friction
+    /// is unknown have no weight.
+    fn mean_variation(&self, textures: &dyn Textures, done: f32, place_m: [f64; 2], way_m: f64) -> f32 {
+        let parts = self.faded.weights_at(done).filter_map(|(id, weight)| {
+            let texture = textures.texture(id)?;
+            texture.friction()?;
+            Some((weight, variation(&texture, place_m, way_m)))
+        });
+        let (weight, sum) = weight_and_sum(parts);
+        let rest = (1.0 - weight).max(0.0);
+        (sum + rest) / (weight + rest)
     }
 
     /// Level at a time of the stream's clock, which must not decrease between two calls.
@@ -203,35 +224,25 @@ impl ContactSource for Noting<'_> {
     }
 }
 
-/// Textures of a mix whose friction is known, with their weights.
-fn rubbed<'a>(
-    textures: &'a dyn Textures,
-    mix: &'a Mix,
-) -> impl Iterator<Item = (f32, Friction, Texture<'a>)> {
-    mix.parents.iter().filter(|parent| parent.weight > 0.0).filter_map(move |parent| {
-        let texture = textures.texture(parent.id)?;
-        Some((parent.weight, texture.friction()?, texture))
-    })
-}
-
 /// Weighted mean of the kinetic coefficients of a mix; 0 if none is known.
 fn mean_kinetic(textures: &dyn Textures, mix: &Mix) -> f32 {
-    let kinetic = |friction: Friction| friction.kinetic.min(HIGHEST_KINETIC);
-    let parts = rubbed(textures, mix).map(|(weight, friction, _)| (weight, kinetic(friction)));
+    let known = mix.parents.iter().filter(|parent| parent.weight > 0.0);
+    let parts = known.filter_map(|parent| {
+        let friction = textures.texture(parent.id)?.friction()?;
+        Some((parent.weight, friction.kinetic.min(HIGHEST_KINETIC)))
+    });
     weighted_mean(parts).unwrap_or(0.0)
-}
-
-/// Weighted mean of the variation of friction over place, at a position on the pad.
-fn mean_variation(textures: &dyn Textures, mix: &Mix, place_m: [f64; 2], way_m: f64) -> f32 {
-    let parts = rubbed(textures, mix).map(|(weight, _, of)| (weight, variation(&of, place_m, way_m)));
-    weighted_mean(parts).unwrap_or(1.0)
 }
 
 /// Mean of the values, each after its weight; `None` without a weight.
 fn weighted_mean(parts: impl Iterator<Item = (f32, f32)>) -> Option<f32> {
-    let (weight, sum) =
-        parts.fold((0.0, 0.0), |(total, sum), (weight, value)| (total + weight, sum + weight * value));
+    let (weight, sum) = weight_and_sum(parts);
     (weight > 0.0).then(|| sum / weight)
+}
+
+/// Sum of the weights, and sum of the values times their weights.
+fn weight_and_sum(parts: impl Iterator<Item = (f32, f32)>) -> (f32, f32) {
+    parts.fold((0.0, 0.0), |(total, sum), (weight, value)| (total + weight, sum + weight * value))
 }
 
 /// Normal force on the tip at a place over its mean, `1 + m a / F`: a tip of mass `m` that follows relief or height map is

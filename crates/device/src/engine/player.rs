@@ -3,18 +3,16 @@
 use std::mem::{Discriminant, discriminant};
 
 use shagreen_synth::contact::{Contact, ContactSource, Place};
-use shagreen_synth::tap::REFERENCE_IMPACT_MPS;
 
 use super::FADE_SECS;
 use super::place::FollowedPlace;
 use crate::controls::{Input, Takeover};
+use crate::impact::strength_of;
 use crate::kinematics::held_speed;
 use crate::live::TimedTouch;
 use crate::touch::{Touch, mix_contacts};
 use crate::track::Track;
 
-/// Range of the impact speed relative to [`REFERENCE_IMPACT_MPS`]. Estimates of the impact speed are rough.
-const STRENGTHS: (f32, f32) = (0.1, 3.0);
 /// Shortest time between two contact onsets, in seconds. An earlier one is contact bounce.
 const CHATTER_SECS: f64 = 0.030;
 /// Longest age in seconds at which a live contact onset is still played after a switch to live input.
@@ -25,7 +23,7 @@ const PATIENCE_SECS: f64 = 0.030;
 pub(super) struct Landing {
     /// Time at which its tap transient starts, on the stream's clock, in seconds.
     pub(super) stream_secs: f64,
-    /// Impact speed relative to [`REFERENCE_IMPACT_MPS`], within [`STRENGTHS`].
+    /// Impact speed relative to the reference ([`strength_of`]).
     pub(super) strength: f32,
 }
 
@@ -252,15 +250,17 @@ impl Player {
         self.track_is_down = !self.has_taken_over && self.touch.contact.force_n > 0.0;
     }
 
-    /// Impact speed of the contact in progress in the track, in m/s, if it is known. A repetition at another tempo lands
-    /// faster or slower in proportion.
-    fn track_impact_mps(&self) -> Option<f32> {
+    /// Strength of the landing that began the contact in progress in the track; `None` if that contact has no landing, as
+    /// in a stroke that starts in contact. A repetition at another tempo lands faster or slower in proportion.
+    fn track_strength(&self) -> Option<f32> {
         let track = self.track.as_ref()?;
-        match self.input() {
-            Input::Track => track.impact_mps_at(self.input_secs()),
-            Input::Repeat(repeat) => track.impact_mps_at(self.track_secs).map(|mps| repeat.tempo * mps),
-            _ => None,
-        }
+        let (track_secs, tempo) = match self.input() {
+            Input::Track => (self.input_secs(), 1.0),
+            Input::Repeat(repeat) => (self.track_secs, repeat.tempo),
+            _ => return None,
+        };
+        let landing = track.landing_at(track_secs)?;
+        Some(strength_of(landing.impact_mps.map(|mps| tempo * mps)))
     }
 
     /// Returns the touch of the input, `step_secs` after the last call.
@@ -295,12 +295,6 @@ impl Player {
     }
 }
 
-/// Returns the strength of a contact onset; 1 if its impact speed is unknown.
-fn strength_of(impact_mps: Option<f32>) -> f32 {
-    let relative = impact_mps.map_or(1.0, |mps| mps / REFERENCE_IMPACT_MPS as f32);
-    if relative.is_nan() { 1.0 } else { relative.clamp(STRENGTHS.0, STRENGTHS.1) }
-}
-
 /// Position of a touch to the right and upwards, in m.
 fn place_of(touch: Touch) -> [f64; 2] {
     [touch.x_m, touch.y_m].map(f64::from)
@@ -323,8 +317,10 @@ impl ContactSource for Player {
         let mut touch = self.asked(step_secs).sanitized();
         if is_track(self.input()) {
             let is_down = touch.contact.force_n > 0.0;
-            if is_down && !self.track_is_down {
-                let strength = strength_of(self.track_impact_mps());
+            if is_down
+                && !self.track_is_down
+                && let Some(strength) = self.track_strength()
+            {
                 self.track_landing = Some(Landing { stream_secs: time_secs, strength });
             }
             self.track_is_down = is_down;

@@ -1,5 +1,6 @@
-use super::{Contact, PenSample, Touch, Track, TrackError};
+use super::{Contact, PenSample, Touch, Track, TrackError, TrackLanding};
 use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
+use proptest::prelude::{prop_assert, proptest};
 
 fn sample(time_secs: f64, x_m: f64) -> PenSample {
     PenSample { time_secs, x_m, force_n: 0.5, touching: true, ..PenSample::default() }
@@ -93,6 +94,35 @@ fn each_contact_has_the_impact_speed_that_is_stated_around_its_onset() {
 }
 
 #[test]
+fn a_stroke_that_starts_in_contact_lands_only_if_its_first_sample_states_an_impact() {
+    let at = |time_secs: f64, touching: bool, impact_mps: Option<f64>| PenSample {
+        touching,
+        impact_mps,
+        ..sample(time_secs, 0.0)
+    };
+    // A lift, a gap without samples, and the first contact with each impact speed.
+    let landings = |impact_mps: Option<f64>| {
+        let track = Track::new(&[
+            at(0.0, true, impact_mps),
+            at(0.01, true, Some(0.4)),
+            at(0.02, false, None),
+            at(0.03, true, None),
+            at(0.90, true, None),
+        ])
+        .unwrap();
+        track.landings().iter().map(|landing| landing.time_secs).collect::<Vec<_>>()
+    };
+    assert_eq!(landings(None), [0.03, 0.9]);
+    assert_eq!(landings(Some(0.0)), [0.03, 0.9]);
+    assert_eq!(landings(Some(0.2)), [0.0, 0.03, 0.9]);
+    let pressed = Track::new(&[at(0.0, true, None), at(0.01, true, None)]).unwrap();
+    assert_eq!((pressed.landing_at(0.0), pressed.landing_at(0.01)), (None, None));
+    // In the air first, it lands like any other.
+    let landed = Track::new(&[at(0.0, false, None), at(0.01, true, None)]).unwrap();
+    assert_eq!(landed.landing_at(0.01), Some(TrackLanding { time_secs: 0.01, impact_mps: None }));
+}
+
+#[test]
 fn a_long_gap_is_held_decays_and_lifts() {
     let mut samples: Vec<_> = (0..20).map(|i| sample(0.01 * f64::from(i), 0.001 * f64::from(i))).collect();
     samples.push(sample(0.5, 0.3));
@@ -131,6 +161,46 @@ fn a_slow_recording_is_one_stroke_and_a_longer_gap_in_it_lifts() {
         }
         let gap = track.touch_at(42.9 * interval_secs);
         assert_eq!(gap.contact, Contact::LIFTED, "{interval_secs}");
+    }
+}
+
+/// Two rows of a table, 20 s apart: before, the speed rose from 0 to 149 mm/s.
+#[test]
+fn two_rows_of_a_table_are_one_constant_speed() {
+    let track = Track::new(&[sample(0.0, 0.0), sample(20.0, 2.0)]).unwrap();
+    for i in 0..=200 {
+        close(track.touch_at(0.1 * f64::from(i)).contact.speed_mps, 0.1);
+    }
+}
+
+proptest! {
+    /// A constant velocity has exactly its speed at any spacing above that of pens, regular or not, from the first row to
+    /// the last; at the spacing of pens it has it after the filter has settled.
+    #[test]
+    fn constant_motion_is_constant_at_any_spacing(
+        spacing_secs in 0.004_f64..2.0,
+        jitter in 0.0_f64..0.3,
+        speed_mps in 0.001_f64..0.5,
+        angle_rad in 0.0_f64..6.3,
+    ) {
+        let at = |i: u32| {
+            let time_secs = spacing_secs * (f64::from(i) + jitter * f64::from(i % 2));
+            let x_m = speed_mps * time_secs;
+            PenSample { y_m: x_m * angle_rad.sin(), ..sample(time_secs, x_m * angle_rad.cos()) }
+        };
+        let samples: Vec<_> = (0..60).map(at).collect();
+        let track = Track::new(&samples).unwrap();
+        // The usual interval can be the shorter or the longer of the two.
+        let is_coarse = spacing_secs * (1.0 - jitter) > 0.025;
+        let from_secs = if is_coarse { 0.0 } else { 0.5 * track.duration_secs() };
+        for step in 0..=100 {
+            let share = f64::from(step) / 100.0;
+            let time_secs = from_secs + share * (track.duration_secs() - from_secs);
+            let got = f64::from(track.touch_at(time_secs).contact.speed_mps);
+            // The filter settles to a thousandth within 30 reports; differences of `f64` are exact to the last `f32` bits.
+            let tolerance = if is_coarse { 1e-6 } else { 1e-3 };
+            prop_assert!((got / speed_mps - 1.0).abs() < tolerance, "{got} for {speed_mps} at {time_secs} s");
+        }
     }
 }
 

@@ -15,6 +15,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use crate::figure::color_map::map_color;
 use crate::figure::labels::offsets;
+use crate::figure::title;
 use crate::figure::{Chart, Figure, Map, Mark, Point, Scale, Series, Table, Tone};
 
 /// Size of a single figure, in pixels.
@@ -25,6 +26,10 @@ const PANEL: (u32, u32) = (600, 500);
 const COLUMNS: usize = 2;
 /// Height of the page header, in pixels.
 const HEAD: u32 = 100;
+/// Distance of a title from the border of its figure, in pixels.
+const MARGIN: u32 = 16;
+/// Distance between the lines of a title, in pixels.
+const TITLE_LINE: u32 = 20;
 /// Height of a table row, in pixels.
 const ROW: i32 = 24;
 /// Colors of a map: finer steps are indistinguishable, and adjacent cells of equal color form one rectangle.
@@ -94,7 +99,28 @@ fn color(tone: Tone) -> RGBColor {
     }
 }
 
+/// Draws all lines of a title but the last, centered. Returns the area below them, and the last line: its caption.
+fn titled<'a>(
+    page: &Page<'a>,
+    title: &str,
+) -> Result<(Page<'a>, String), DrawingAreaErrorKind<std::io::Error>> {
+    let width = page.dim_in_pixel().0;
+    let mut lines = title::lines(title, f64::from(width.saturating_sub(2 * MARGIN)));
+    let caption = lines.pop().unwrap_or_default();
+    let style = text(16.0, INK).pos(Pos::new(HPos::Center, VPos::Top));
+    let mut down = 0;
+    for line in &lines {
+        // A caption has this distance from the margin above it.
+        let top = MARGIN + 5 + down;
+        page.draw_text(line, &style, ((width / 2).cast_signed(), top.cast_signed()))?;
+        down += TITLE_LINE;
+    }
+    Ok((page.split_vertically(down).1, caption))
+}
+
 fn draw_chart(page: &Page<'_>, chart: &Chart, title: &str) -> Drawn {
+    let (page, caption) = titled(page, title)?;
+    let page = &page;
     let [mut x, mut y] = chart.bounds();
     let (width, height) = page.dim_in_pixel();
     let inner =
@@ -108,7 +134,7 @@ fn draw_chart(page: &Page<'_>, chart: &Chart, title: &str) -> Drawn {
         (x, y) = (widened(x, unit * inner.0), widened(y, unit * inner.1));
     }
     let mut builder = ChartBuilder::on(page);
-    builder.margin(16).caption(title, text(16.0, INK)).x_label_area_size(42).y_label_area_size(52);
+    builder.margin(MARGIN).caption(caption, text(16.0, INK)).x_label_area_size(42).y_label_area_size(52);
     match chart.x_scale {
         Scale::Linear => draw_series(page, builder.build_cartesian_2d(x.0..x.1, y.0..y.1)?, chart),
         Scale::Logarithmic => {
@@ -196,9 +222,10 @@ fn draw_series<'a, X: Ranged<ValueType = f64> + ValueFormatter<f64>>(
 /// Draws a map: a rectangle per run of cells of equal color, and a color scale at the right.
 fn draw_map(page: &Page<'_>, map: &Map, title: &str) -> Drawn {
     let (page, key) = page.split_horizontally(page.dim_in_pixel().0.saturating_sub(96));
+    let (page, caption) = titled(&page, title)?;
     let mut context = ChartBuilder::on(&page)
-        .margin(16)
-        .caption(title, text(16.0, INK))
+        .margin(MARGIN)
+        .caption(caption, text(16.0, INK))
         .x_label_area_size(42)
         .y_label_area_size(52)
         .build_cartesian_2d(map.x.0..map.x.1, map.y.0..map.y.1)?;
@@ -265,8 +292,12 @@ fn free_corner(points: &[(f64, f64)], (width, height): (f64, f64)) -> SeriesLabe
 }
 
 fn draw_table(page: &Page<'_>, table: &Table, title: &str) -> Drawn {
-    page.draw_text(title, &text(16.0, INK), (28, 16))?;
     let width = page.dim_in_pixel().0.cast_signed();
+    let lines = title::lines(title, f64::from(width - 56));
+    for (top, line) in (16..).step_by(TITLE_LINE as usize).zip(&lines) {
+        page.draw_text(line, &text(16.0, INK), (28, top))?;
+    }
+    let (_, page) = page.split_vertically(TITLE_LINE * lines.len().saturating_sub(1) as u32);
     let n_columns = i32::try_from(table.columns.len().max(1)).unwrap_or(i32::MAX);
     let first = (width / 3).min(220);
     let step = ((width - first - 56) / n_columns).clamp(24, 120);

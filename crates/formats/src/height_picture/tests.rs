@@ -2,13 +2,32 @@ use std::f64::consts::TAU;
 use std::io::Cursor;
 
 use image::{ImageBuffer, ImageFormat, Luma, Rgb};
-use shagreen_core::texture::height_map::{HeightMapError, HeightMapOptions};
+use shagreen_core::texture::height_map::{HeightMap, HeightMapError, HeightMapOptions};
 use shagreen_core::units::{Hertz, Newtons};
 
-use super::{HeightPictureError, HeightScale, height_picture, overlaps};
+use super::{HeightPictureError, HeightScale, PictureTile, overlaps};
+use crate::picture::decode;
 
 const SCALE: HeightScale = HeightScale { side_m: 0.04, height_m: 1e-4 };
 const OPTIONS: HeightMapOptions = HeightMapOptions::HARD_PLASTIC;
+
+/// A height map, and how it was made.
+#[derive(Debug)]
+struct Made {
+    map: HeightMap,
+    is_seamless: bool,
+    is_colored: bool,
+}
+
+fn height_picture(
+    bytes: &[u8],
+    scale: HeightScale,
+    options: HeightMapOptions,
+) -> Result<Made, HeightPictureError> {
+    let tile = PictureTile::read(bytes)?;
+    let map = tile.height_map(scale, options)?;
+    Ok(Made { map, is_seamless: tile.is_seamless, is_colored: tile.is_colored })
+}
 
 /// A 16-bit gray PNG of a brightness from 0 to 1.
 fn png(width: u32, height: u32, brightness: impl Fn(f64, f64) -> f64) -> Vec<u8> {
@@ -106,6 +125,34 @@ fn other_pictures_lose_their_plane_and_their_edges() {
         // One step of 8 bits.
         assert!((a - b).abs() < 1e-4 / 255.0 * 1.5, "{a} is not {b}");
     }
+}
+
+/// The picture of a tile shows its heights where they are, in the colors of the photo.
+#[test]
+fn the_picture_of_a_tile_is_cut_as_its_heights() {
+    let bump = |x: f64, y: f64| (-0.5 * ((x - 40.0).hypot(y - 90.0) / 9.0).powi(2)).exp();
+    let tile = PictureTile::read(&png(128, 128, bump)).unwrap();
+    let picture = tile.picture(0.04).unwrap();
+    assert!(tile.is_seamless && (picture.millimeters - 40.0).abs() < 1e-9);
+    let rgb = decode(&picture).unwrap();
+    let brightest = (0..128 * 128).max_by_key(|pixel| rgb.pixels[3 * pixel]).unwrap();
+    let (x, y) = (brightest % 128, brightest / 128);
+    // The compression may move the middle of a smooth bump by some pixels.
+    assert!(x.abs_diff(40) <= 3 && y.abs_diff(90) <= 3, "{x}, {y}");
+    let slope = ImageBuffer::from_fn(90, 144, |x, y| Rgb([200, (x + y) as u8, 20]));
+    let mut bytes = Cursor::new(Vec::new());
+    slope.write_to(&mut bytes, ImageFormat::Png).unwrap();
+    let tile = PictureTile::read(bytes.get_ref()).unwrap();
+    let picture = tile.picture(0.045).unwrap();
+    assert_eq!((tile.is_seamless, tile.is_colored, picture.width), (false, true, 64));
+    assert!((picture.millimeters - 40.0).abs() < 1e-9);
+    let rgb = decode(&picture).unwrap();
+    let mean = |color: usize| {
+        let values = rgb.pixels.iter().skip(color).step_by(3);
+        values.map(|value| f64::from(*value)).sum::<f64>() / 4096.0
+    };
+    // The middle of the green slope is that of the central square.
+    assert!((mean(0) - 200.0).abs() < 3.0 && (mean(1) - 116.0).abs() < 12.0 && (mean(2) - 20.0).abs() < 3.0);
 }
 
 /// Pictures of any size are averaged: every pixel counts with its area.

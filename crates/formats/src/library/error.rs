@@ -113,6 +113,14 @@ pub enum LibraryError {
         /// What is wrong.
         source: SpacePointError,
     },
+    /// A standard deviation of a position is outside 0 to 100.
+    #[error(
+        "the `sd` of the position of texture \"{id}\" is invalid; both numbers must be from 0 to 100; correct or remove it"
+    )]
+    Deviation {
+        /// Identifier of the texture.
+        id: String,
+    },
     /// A label source is unknown.
     #[error(
         "texture \"{id}\" has the label source \"{found}\"; it must be human, simulated, physical or estimated"

@@ -201,7 +201,10 @@ pub(crate) fn place(id: &str, wire: SpaceV1, unknown: &mut Unknown) -> Result<Pl
         .map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
     let source = LabelSource::from_id(&wire.label_source)
         .ok_or_else(|| LibraryError::LabelSource { id: id.to_owned(), found: wire.label_source })?;
-    Ok(Place { at, source })
+    if wire.sd.is_some_and(|sd| sd.iter().any(|sd| !(0.0..=100.0).contains(sd))) {
+        return Err(LibraryError::Deviation { id: id.to_owned() });
+    }
+    Ok(Place { deviation: wire.sd, ..Place::new(at, source) })
 }
 
 pub(crate) fn picture(id: &str, wire: PictureV1, unknown: &mut Unknown) -> Result<Picture, LibraryError> {

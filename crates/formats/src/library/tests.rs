@@ -19,7 +19,7 @@ fn small() -> Library {
     let model = TextureModel::new(Hertz(1000.0), vec![node(30.0), node(70.0)], Some(0.3)).unwrap();
     let cork = TextureEntry {
         tags: vec!["soft".into()],
-        place: Some(Place { at: SpacePoint::new(30.25, 70.0).unwrap(), source: LabelSource::PhysicalLabels }),
+        place: Some(Place::new(SpacePoint::new(30.25, 70.0).unwrap(), LabelSource::PhysicalLabels)),
         physical: Some(PhysicalLabels { roughness_log10_mps2: -0.5, hardness_log10_n_per_m: 4.25 }),
         picture: Some(encode_jpeg(&Rgb { width: 2, height: 1, pixels: vec![9; 6] }, 20.0).unwrap()),
         ..TextureEntry::new("cork", "Cork", model.clone())
@@ -242,11 +242,31 @@ fn mixed_label_sources_are_no_single_source() {
     let mut library = small();
     assert_eq!(library.label_source(), Some(LabelSource::PhysicalLabels));
     let at = SpacePoint::new(1.0, 2.0).unwrap();
-    library.textures[1].place = Some(Place { at, source: LabelSource::HumanRatings });
+    library.textures[1].place = Some(Place::new(at, LabelSource::HumanRatings));
     assert_eq!(library.label_source(), None);
     assert_eq!(library.label_sources(), [LabelSource::PhysicalLabels, LabelSource::HumanRatings]);
     assert_eq!(library.index_of("bare"), Some(1));
     assert_eq!(library.license_of(&library.textures[0]), "CC0-1.0");
+}
+
+#[test]
+fn the_deviation_of_an_estimated_position_is_kept() {
+    let mut library = small();
+    let place = library.textures[0].place.as_mut().unwrap();
+    (place.source, place.deviation) = (LabelSource::Estimated, Some([10.5, 25.0]));
+    let bytes = write_library(&library);
+    assert_eq!(read_library(&bytes).unwrap().value, library);
+    let value: Value = serde_json::from_slice(&bytes).unwrap();
+    assert_eq!(
+        (&value["version"], &value["textures"][0]["space"]["sd"]),
+        (&json!("1.7"), &json!([10.5, 25.0]))
+    );
+    assert!(wire()["textures"][0]["space"].get("sd").is_none(), "unknown deviations are not written");
+    check_error(
+        |library| library["textures"][0]["space"]["sd"] = json!([10.0, 101.0]),
+        &["cork", "`sd`", "0 to 100"],
+    );
+    check_error(|library| library["textures"][0]["space"]["sd"] = json!([-1.0, 5.0]), &["cork", "0 to 100"]);
 }
 
 #[test]

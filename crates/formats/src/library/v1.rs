@@ -45,7 +45,7 @@ pub(super) struct UnitsV1 {
 
 #[derive(Serialize, Deserialize)]
 pub(crate) struct TextureV1 {
-    pub(super) id: String,
+    pub(crate) id: String,
     pub(super) name: String,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) tags: Vec<String>,
@@ -81,7 +81,7 @@ pub(crate) struct TextureV1 {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) turn_deg: Option<f64>,
     #[serde(flatten)]
-    pub(super) unknown: Map<String, Value>,
+    pub(crate) unknown: Map<String, Value>,
     pub(super) anchors: Vec<AnchorV1>,
     /// Since 1.7.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -175,6 +175,9 @@ pub(crate) struct SpaceV1 {
     pub(super) rough_smooth: f64,
     pub(super) hard_soft: f64,
     pub(super) label_source: String,
+    /// Since 1.7.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) sd: Option<[f64; 2]>,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
 }

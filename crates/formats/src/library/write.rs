@@ -20,7 +20,8 @@ use crate::picture::Picture;
 /// line.
 const OPEN_DEPTH: usize = 4;
 
-/// The minor version that introduced grain along the lay, rotation, height maps and stick-slip friction.
+/// The minor version that introduced grain along the lay, rotation, height maps, stick-slip friction and standard
+/// deviations of positions.
 const WITH_DIRECTION: u32 = 7;
 /// The minor version that introduced estimated labels.
 const WITH_ESTIMATES: u32 = 6;
@@ -111,6 +112,7 @@ pub(crate) fn place(place: Place) -> SpaceV1 {
         rough_smooth: decimals(place.at.rough_smooth),
         hard_soft: decimals(place.at.hard_soft),
         label_source: place.source.id().to_owned(),
+        sd: place.deviation.map(|sd| sd.map(decimals)),
         unknown: Map::new(),
     }
 }
@@ -140,7 +142,8 @@ fn minor_version(library: &Library) -> u32 {
         let has_layer = model.along().is_some() || model.height_map().is_some();
         has_layer || model.stick_slip().is_some() || model.turn_rad() != 0.0
     };
-    if library.textures.iter().any(|entry| models(entry).any(has_direction)) {
+    let has_deviation = |entry: &TextureEntry| entry.place.is_some_and(|place| place.deviation.is_some());
+    if library.textures.iter().any(|entry| models(entry).any(has_direction) || has_deviation(entry)) {
         return WITH_DIRECTION;
     }
     let is_estimated = |entry: &TextureEntry| {

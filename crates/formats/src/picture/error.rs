@@ -5,6 +5,7 @@ use image::ImageError;
 use super::MAX_PHOTO_SIDE;
 #[cfg(doc)]
 use super::MAX_SIDE;
+use crate::foreign_file::Found;
 
 /// Why a picture cannot be encoded or decoded.
 #[derive(Debug, thiserror::Error)]
@@ -57,8 +58,11 @@ pub enum PictureError {
         rows: u32,
     },
     /// The bytes are neither JPEG nor PNG.
-    #[error("the file is not a readable photo; save it as JPEG or PNG")]
-    NoPhoto,
+    #[error("{}", .found.instead_of_photo())]
+    NoPhoto {
+        /// Content of the file.
+        found: Found,
+    },
     /// A photo with a side above [`MAX_PHOTO_SIDE`] pixels, or above 1 GiB when decoded.
     #[error(
         "the photo is too large; scale it to at most {MAX_PHOTO_SIDE} pixels per side, with 8 bits per color channel"

@@ -1,6 +1,6 @@
 //! Conversion of bytes to a project.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,20 +16,19 @@ use crate::built_in::BuiltIn;
 use crate::imported::Imported;
 use crate::library::read::{library_inside, picture, place, texture};
 use crate::library::v1::PictureV1;
-use crate::library::{Attributes, LibraryError, TextureEntry, Unknown, attributes, read_library};
+use crate::library::{Attributes, LibraryError, Unknown, attributes, read_library};
 use crate::own_json::{HeaderFault, minor_version};
 use crate::parser_words::plain;
 use crate::path_json;
 use crate::picture::Picture;
 use crate::placed_space::{PlacedSpace, PlacedTexture};
-use crate::project::shape;
 use crate::project::v1::{
     AuthoredV1, BlendV1, DrawnPathV1, PlacedSpaceV1, ProjectLibraryV1, ProjectV1, UnitsV1,
 };
 use crate::project::write::{OUTSIDES, UNITS, WEIGHTS};
 use crate::project::{
     AuthoredTexture, BlendChoice, FORMAT, LibraryFile, N_COLORS, Project, ProjectError, ProjectLibrary,
-    VERSION_MAJOR, VERSION_MINOR,
+    VERSION_MAJOR, VERSION_MINOR, listed_ids, own, shape,
 };
 use crate::text_limits::{self, MAX_NAME, MAX_NOTES};
 
@@ -70,12 +69,14 @@ fn read_with(
     check_units(&wire.units)?;
     let library = library_of(wire.library, &mut warnings)?;
     let inside = |source: LibraryError| ProjectError::Library { path: None, source };
-    let joined: Vec<Arc<TextureEntry>> = wire
-        .joined
-        .into_iter()
-        .map(|wire| texture(wire).map(Arc::new))
-        .collect::<Result<_, _>>()
-        .map_err(inside)?;
+    let (mut joined, mut marks) = (Vec::with_capacity(wire.joined.len()), Vec::new());
+    for mut wire in wire.joined {
+        marks.push(own::read(&mut wire)?);
+        joined.push(Arc::new(texture(wire).map_err(inside)?));
+    }
+    let joined = listed_ids::listed(&library, joined);
+    let marked = joined.iter().zip(&marks).filter(|(_, is_own)| **is_own);
+    let own: BTreeSet<String> = marked.map(|(entry, _)| entry.id.clone()).collect();
     let space = wire.space.map(placed_space).transpose().map_err(inside)?.map(Arc::new);
     text_limits::check("the notes of the project", &wire.notes, MAX_NOTES)?;
     for texture in wire.authored.iter().chain(&wire.snapshots) {
@@ -105,6 +106,7 @@ fn read_with(
             notes: wire.notes,
             library,
             joined,
+            own,
             renamed: wire.renamed,
             starred: wire.starred,
             space,
@@ -112,6 +114,7 @@ fn read_with(
             authored,
             selected,
             solo: wire.solo,
+            compared: wire.compared,
             snapshots,
             unknown: wire.unknown,
         },

@@ -16,7 +16,7 @@ use super::{
     read_project_on, sha256_hex, write_project,
 };
 use crate::built_in::BuiltIn;
-use crate::library::{Attribute, Attributes, Place, read_library, write_library};
+use crate::library::{Attribute, Attributes, Place, TextureEntry, read_library, write_library};
 use crate::placed_space::{PlacedSpace, PlacedTexture};
 use crate::starter::{starter_bytes, starter_library};
 
@@ -60,7 +60,7 @@ fn full() -> Project {
     let values = vec![Attribute { name: "warm-cold".to_owned(), value: 12.5 }];
     let placed = |id: &str| PlacedTexture {
         id: id.to_owned(),
-        place: Place { at: at(10.5, 20.25), source: LabelSource::SimulatedRaters },
+        place: Place::new(at(10.5, 20.25), LabelSource::SimulatedRaters),
         attributes: Some(Attributes { source: LabelSource::SimulatedRaters, values: values.clone() }),
     };
     let space = PlacedSpace {
@@ -71,11 +71,14 @@ fn full() -> Project {
     let mut project = Project::new(ProjectLibrary::BuiltIn(BuiltIn::Simulated), "New texture");
     project.authored.push(Arc::new(oak.clone()));
     project.snapshots.push(Arc::new(oak));
-    project.joined.push(Arc::new(library.textures[2].clone()));
+    let added = TextureEntry { id: "added".to_owned(), ..library.textures[2].clone() };
+    project.joined.push(Arc::new(added));
+    project.own.insert("added".to_owned());
     project.renamed.insert("cork".to_owned(), "Cork, sanded".to_owned());
     project.starred.insert("felt".to_owned());
     project.notes = "für später".to_owned();
     (project.selected, project.solo) = (1, Some("cork".to_owned()));
+    project.compared = Some([2, 1]);
     (project.space, project.axes) = (Some(Arc::new(space)), Some(["a-b".to_owned(), "c-d".to_owned()]));
     project
 }
@@ -171,6 +174,79 @@ fn shapes_are_read_and_written() {
     assert_eq!((&plain["version"], plain["authored"][0].get("shape")), (&json!("1.0"), None));
 }
 
+/// Marks say which added textures belong to the authored textures that pin them, and a project without marks has the
+/// version that older programs read completely.
+#[test]
+fn added_textures_belong_to_the_authored_textures_that_pin_them() {
+    let bytes = include_bytes!("../../../../vectors/project/1.2.shagreen");
+    let read = read_project(bytes, Path::new("/somewhere"), &nothing).unwrap();
+    assert_eq!(read.warnings, Vec::<String>::new());
+    let mut project = read.value;
+    assert_eq!(project.own, BTreeSet::from(["dial", "handle"].map(str::to_owned)));
+    assert_eq!(back(&project), project);
+    let wire = |project: &Project| -> Value {
+        serde_json::from_slice(&write_project(project, Path::new("/somewhere"), BY)).unwrap()
+    };
+    let written = wire(&project);
+    assert_eq!((&written["version"], &written["joined"][0]["own"]), (&json!("1.2"), &json!(true)));
+    assert_eq!(written["joined"][1]["of_a_later_version"], json!({ "kept": true }));
+    assert!([1, 2].into_iter().all(|joined| written["joined"][joined].get("own").is_none()));
+
+    let list = project.textures_on(starter_library().unwrap());
+    let n = list.textures.len();
+    let left_out = |project: &Project, key: usize| {
+        let locked = &project.authored[key].blend.locked;
+        project.left_out(&list.textures, |id| locked.contains(id))
+    };
+    // The pin counts in every mode.
+    assert_eq!((left_out(&project, 0), left_out(&project, 1)), (vec![n - 1], vec![n - 4]));
+    let with_places = project.with_places_of(&list, |id| id == "dial");
+    let changed: Vec<usize> =
+        (0..n).filter(|index| with_places.textures[*index] != list.textures[*index]).collect();
+    assert_eq!((changed, with_places.textures[n - 4].place), (vec![n - 4], None));
+    assert_eq!((project.n_without_pin("dial"), project.n_without_pin("recorded")), (1, 2));
+
+    project.own.clear();
+    assert!(left_out(&project, 0).is_empty());
+    assert_eq!(wire(&project)["version"], "1.0");
+    project.own.insert("gone".to_owned());
+    assert_eq!(wire(&project)["version"], "1.0", "no added texture has this id");
+}
+
+/// The library has a `cork`, so that the list shows the added ones under other identifiers, which pins use.
+#[test]
+fn added_textures_have_their_identifiers_of_the_list() {
+    let cork = |id: &str| {
+        let library = starter_library().unwrap();
+        Arc::new(TextureEntry { id: id.to_owned(), ..library.textures[0].clone() })
+    };
+    let mut project = Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "New texture");
+    project.joined = vec![cork("cork"), cork("cork"), cork("cork-2")];
+    project.own.insert("cork".to_owned());
+    let bytes = write_project(&project, Path::new("/somewhere"), BY);
+    let mut wire: Value = serde_json::from_slice(&bytes).unwrap();
+    wire["joined"][1]["own"] = json!(false);
+    let bytes = serde_json::to_vec(&wire).unwrap();
+    let mut project = read_project(&bytes, Path::new("/somewhere"), &nothing).unwrap().value;
+    let list = project.textures_on(starter_library().unwrap());
+    let of_list: Vec<&str> = list.textures[list.textures.len() - 3..].iter().map(|t| &*t.id).collect();
+    let of_project: Vec<&str> = project.joined.iter().map(|entry| &*entry.id).collect();
+    assert_eq!((&of_project, of_project.as_slice()), (&of_list, ["cork-2", "cork-3", "cork-2-2"].as_slice()));
+    assert_eq!(project.own, BTreeSet::from(["cork-2".to_owned()]), "only the marked one");
+    assert_eq!(back(&project), project);
+
+    // A pin of the library's texture is not one of the added texture.
+    let locked = ["cork", "cork-2"].map(str::to_owned);
+    Arc::make_mut(&mut project.authored[0]).blend.locked = BTreeSet::from(locked);
+    assert_eq!(project.blend_of_new().locked, BTreeSet::from(["cork".to_owned()]));
+    project.add_textures(vec![cork("cork"), cork("new")]);
+    assert_eq!((&*project.joined[3].id, &*project.joined[4].id), ("cork-4", "new"));
+    // A new identifier is not too long for a file.
+    let long = "x".repeat(200);
+    project.add_textures(vec![cork(&long), cork(&long)]);
+    assert_eq!(back(&project), project);
+}
+
 /// A project and the library in its folder may be moved together; a changed library raises a warning.
 #[test]
 fn a_library_beside_the_project_is_found_where_both_went() {
@@ -240,7 +316,7 @@ type Fault = (&'static str, fn(&mut Value));
 
 #[test]
 fn each_fault_is_named() {
-    let faults: [Fault; 20] = [
+    let faults: [Fault; 21] = [
         ("not a project", |wire| wire["format"] = json!("shagreen-library")),
         ("version 2.0", |wire| wire["version"] = json!("2.0")),
         ("version \"one\"", |wire| wire["version"] = json!("one")),
@@ -261,6 +337,7 @@ fn each_fault_is_named() {
             wire["snapshots"][0]["shape"] = json!({"softness": 0});
         }),
         ("damaged", |wire| wire["authored"][0]["shape"] = json!({"grain": "coarse"})),
+        ("`own` of the added texture", |wire| wire["joined"][0]["own"] = json!(1)),
         ("color 8", |wire| wire["authored"][0]["color"] = json!(8)),
         ("same key 7", |wire| wire["authored"][0]["key"] = json!(7)),
         ("length_mm 0", |wire| wire["authored"][1]["path"]["length_mm"] = json!(0)),
@@ -286,7 +363,7 @@ fn what_a_newer_program_wrote_is_kept() {
         wire["authored"][1]["mood"] = json!("calm");
     })
     .unwrap();
-    assert!(warnings[0].contains("newer than 1.1"), "{warnings:?}");
+    assert!(warnings[0].contains("newer than 1.2"), "{warnings:?}");
     let wire: Value = serde_json::from_slice(&write_project(&project, Path::new("/"), BY)).unwrap();
     assert_eq!((&wire["moods"][0], &wire["authored"][1]["mood"]), (&json!("calm"), &json!("calm")));
 }

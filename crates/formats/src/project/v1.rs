@@ -1,4 +1,4 @@
-//! File format of a project, version 1.1.
+//! File format of a project, version 1.2.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,6 +26,8 @@ pub(super) struct ProjectV1 {
     pub(super) selected: usize,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) solo: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) compared: Option<[u32; 2]>,
     #[serde(flatten)]
     pub(super) unknown: Map<String, Value>,
     pub(super) authored: Vec<AuthoredV1>,

@@ -9,16 +9,15 @@ use shagreen_core::space::authoring::{Outside, Weights};
 
 use crate::layout;
 use crate::library::numbers::{CONVERSION_DIGITS, digits};
-use crate::library::write::{picture, place, texture, wire as library_wire};
+use crate::library::write::{picture, place, wire as library_wire};
 use crate::library::{Unknown, attributes};
 use crate::path_json;
 use crate::placed_space::{PlacedSpace, PlacedTexture};
-use crate::project::shape;
 use crate::project::v1::{
     AuthoredV1, BlendV1, DrawnPathV1, PlacedSpaceV1, PlacedTextureV1, ProjectLibraryV1, ProjectV1, UnitsV1,
 };
 use crate::project::{
-    AuthoredTexture, BlendChoice, FORMAT, LibraryFile, Project, ProjectLibrary, VERSION_MAJOR,
+    AuthoredTexture, BlendChoice, FORMAT, LibraryFile, Project, ProjectLibrary, VERSION_MAJOR, own, shape,
 };
 
 /// Quantities of the format and their units, in the order of [`UnitsV1`].
@@ -32,6 +31,8 @@ pub(super) const OUTSIDES: [(Outside, &str); 2] =
 
 /// The minor version that introduced shapes.
 const WITH_SHAPES: u32 = 1;
+/// The minor version that introduced added textures that only some authored textures use.
+const WITH_OWN: u32 = 2;
 
 /// Nesting depth up to which values get their own lines. Each anchor of an embedded library (in project, library,
 /// library, textures, texture, anchors) fills one line.
@@ -53,11 +54,12 @@ pub fn write_project(project: &Project, folder: &Path, created_by: &str) -> Vec<
         starred: project.starred.clone(),
         selected: project.selected,
         solo: project.solo.clone(),
+        compared: project.compared,
         unknown: project.unknown.clone(),
         authored: project.authored.iter().map(|texture| authored(texture)).collect(),
         snapshots: project.snapshots.iter().map(|texture| authored(texture)).collect(),
         space: project.space.as_deref().map(placed_space),
-        joined: project.joined.iter().map(|entry| texture(entry)).collect(),
+        joined: own::write(project),
         library: library(&project.library, folder),
     };
     layout::to_bytes(&wire, OPEN_DEPTH)
@@ -66,6 +68,9 @@ pub fn write_project(project: &Project, folder: &Path, created_by: &str) -> Vec<
 /// Returns the lowest minor version that has all features of a project, so that older programs can read as much as
 /// possible.
 fn minor_version(project: &Project) -> u32 {
+    if own::is_needed(project) {
+        return WITH_OWN;
+    }
     let mut textures = project.authored.iter().chain(&project.snapshots);
     if textures.any(|texture| shape::is_needed(texture)) { WITH_SHAPES } else { 0 }
 }

@@ -81,10 +81,69 @@ fn impact_speeds_are_read_where_they_are_stated() {
 #[test]
 fn what_was_assumed_is_said() {
     let warnings = |text: &str| read_stroke_csv(text.as_bytes()).unwrap().warnings;
-    assert!(warnings("t_s,speed,force\n0,50,1\n").is_empty());
+    assert!(warnings("t_s,speed_mm/s,force_N\n0,50,1\n").is_empty());
+    assert!(warnings("t_s,x_mm,y_mm,pressure\n0,50,1,1\n").is_empty());
+    assert!(warnings("t_s,speed,force\n0,50,1\n")[0].contains("assumed: speed in mm/s, force in N"));
+    assert!(warnings("t_s,x,y,force_n\n0,50,1,1\n")[0].contains("assumed: x in mm, y in mm ("));
+    assert!(warnings("t_s,x_mm,y_mm,force_n,speed_normal\n0,50,1,1,\n").is_empty());
+    let said = warnings("t_s,speed,force_n,speed_normal\n0,50,1,\n");
+    assert!(said[0].contains("assumed: speed in mm/s, speed_normal in mm/s ("), "{said:?}");
+    assert!(warnings("t_s,speed_m/s,force_n,speed_normal\n0,0.05,1,\n").is_empty());
     let guessed = warnings("0,50,1\n1,50,1\n");
     assert!(guessed[0].contains("time, speed in mm/s, force in N") && guessed[1].contains("seconds"));
     assert!(warnings("t,speed,force\n0,50,1\n1000,50,1\n")[0].contains("milliseconds"));
+}
+
+#[test]
+fn units_of_the_header_are_those_of_recordings() {
+    let expected = contacts("t_s,speed_mm/s,force_N,speed_normal_mm/s\n0,50,0.5,200\n0.5,100,1,\n");
+    assert_eq!((expected[0].speed_mps, expected[0].impact_mps), (0.05, Some(0.2)));
+    for (header, rows) in [
+        ("t_ms,speed_m/s,force_mN,speed_normal (m/s)", "0,0.05,500,0.2\n500,0.1,1000,\n"),
+        ("Time [us];v_mps;f_n;v_normal_cm/s", "0;0.05;0.5;20\n500000;0.1;1;\n"),
+        // Without a unit, this speed has that of the other one.
+        ("t_s,velocity (cm/s),force,speed_normal", "0,5,0.5,20\n0.5,10,1,\n"),
+    ] {
+        for (got, expected) in contacts(&format!("{header}\n{rows}")).iter().zip(&expected) {
+            let numbers =
+                |of: &TimedContact| [of.time_secs, of.speed_mps, of.force_n, of.impact_mps.unwrap_or(9.0)];
+            // Two decimal units of one value differ by a rounding error.
+            let is_equal = numbers(got).iter().zip(numbers(expected)).all(|(a, b)| (a - b).abs() < 1e-12);
+            assert!(is_equal, "{header}: {got:?} for {expected:?}");
+        }
+    }
+    let Stroke::Pen { samples, .. } = read_stroke_csv(b"t_s,x_m,y_um,force\n0,0.01,500,1\n").unwrap().value
+    else {
+        panic!("not a pen stroke")
+    };
+    assert!((samples[0].x_m - 0.01).abs() < 1e-15 && (samples[0].y_m - 5e-4).abs() < 1e-15);
+    check_error("t,speed_km/h,force\n0,1,1\n", "speed_km/h");
+}
+
+#[test]
+fn speeds_that_look_like_meters_per_second_are_asked_for() {
+    let warnings = |text: &str| read_stroke_csv(text.as_bytes()).unwrap().warnings.join("; ");
+    let asked = "did you mean 0.100 m/s? Then name the column speed_m/s";
+    for text in ["time,v,f\n0,0.1,1\n4,0.1,1\n", "0,0.1,1\n4,0.1,1\n", "t_s,v,f\n0,0,1\n1,0.1,1\n2,90,0\n"] {
+        assert!(warnings(text).contains(asked), "{text}: {}", warnings(text));
+    }
+    for text in
+        ["t_s,v,f\n0,10,1\n1,20,1\n", "t_s,v_mm/s,f\n0,0.1,1\n", "t_s,v_m/s,f\n0,0.1,1\n", "t_s,v,f\n0,0,1\n"]
+    {
+        assert!(!warnings(text).contains("did you mean"), "{text}: {}", warnings(text));
+    }
+}
+
+#[test]
+fn rows_of_positions_that_are_far_apart_are_said() {
+    let warnings = |interval_ms: u32| {
+        let rows = (0..5).fold("t_ms,x_mm,y_mm,force_n\n".to_owned(), |text, i| {
+            text + &format!("{},{i},0,1\n", i * interval_ms)
+        });
+        read_stroke_csv(rows.as_bytes()).unwrap().warnings
+    };
+    assert!(warnings(40).is_empty());
+    assert!(warnings(1000)[0].starts_with("the rows are 1.000 s apart"), "{:?}", warnings(1000));
 }
 
 #[test]

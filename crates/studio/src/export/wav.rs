@@ -28,20 +28,27 @@ pub struct Rendered<'a> {
     pub follows_stroke: bool,
 }
 
-/// Lists the properties of a texture that the WAV file of a stroke and its sidecar cannot store.
-pub fn lost_in_wav(rendered: Rendered<'_>) -> Vec<String> {
-    let Rendered { texture, tap, rate, follows_stroke } = rendered;
-    let mut lost = vec!["all tip speeds and normal forces except those of this stroke".to_owned()];
-    if let Some(tap) = tap {
-        if !follows_stroke {
-            lost.push("the tap transient: no contact begins in a steady motion".to_owned());
-        } else if tap.frequency.0 > HIGHEST_SHARE * rate.0 {
-            let (frequency_hz, highest_hz) = (tap.frequency.0, HIGHEST_SHARE * rate.0);
-            lost.push(format!(
-                "the frequency of the tap transient: {frequency_hz:.0} Hz is above what this sample rate can hold, so the transient has {highest_hz:.0} Hz; choose a higher rate"
-            ));
-        }
+/// Returns what the signal lacks of the tap transient of its texture. Nobody can tell this from a signal, whereas all else
+/// in [`lost_in_wav`] is true of every signal of one stroke.
+pub fn lost_of_tap(rendered: Rendered<'_>) -> Option<String> {
+    let Rendered { tap, rate, follows_stroke, .. } = rendered;
+    let (frequency_hz, highest_hz) = (tap?.frequency.0, HIGHEST_SHARE * rate.0);
+    if !follows_stroke {
+        return Some("the tap transient: no contact begins in a steady motion".to_owned());
     }
+    (frequency_hz > highest_hz).then(|| {
+        format!(
+            "the frequency of the tap transient: {frequency_hz:.0} Hz is above what this sample rate can hold, so the transient has {highest_hz:.0} Hz; choose a higher rate"
+        )
+    })
+}
+
+/// Lists the properties of a texture that the WAV file of a stroke and its sidecar cannot store. Pictures are not among
+/// them, because nobody expects one in a WAV file.
+pub fn lost_in_wav(rendered: Rendered<'_>) -> Vec<String> {
+    let mut lost = vec!["all tip speeds and normal forces except those of this stroke".to_owned()];
+    lost.extend(lost_of_tap(rendered));
+    let texture = rendered.texture;
     let model = texture.map(|texture| &texture.model);
     if model.is_some_and(|model| model.along().is_some() || model.height_map().is_some()) {
         lost.push("all stroke directions except those of this stroke".to_owned());
@@ -52,15 +59,12 @@ pub fn lost_in_wav(rendered: Rendered<'_>) -> Vec<String> {
     if model.is_some_and(|model| model.stick_slip().is_some()) {
         lost.push("static friction and Stribeck speed, except for the vibration that they cause".to_owned());
     }
-    if texture.is_some_and(|texture| texture.picture.is_some()) {
-        lost.push("the picture".to_owned());
-    }
     lost
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Rendered, Tap, lost_in_wav};
+    use super::{Rendered, Tap, lost_in_wav, lost_of_tap};
     use shagreen_core::texture::stick_slip::StickSlip;
     use shagreen_core::units::{Hertz, MetersPerSecond};
     use shagreen_formats::library::TextureEntry;
@@ -69,7 +73,7 @@ mod tests {
     #[test]
     fn a_signal_loses_all_but_one_stroke() {
         let library = starter_library().unwrap();
-        let texture = library.textures.iter().find(|texture| texture.picture.is_some()).unwrap();
+        let texture = &library.textures[0];
         let lost = |texture, tap, follows_stroke, hz| {
             lost_in_wav(Rendered { texture, tap, rate: Hertz(hz), follows_stroke }).join("; ")
         };
@@ -79,8 +83,12 @@ mod tests {
         assert!(!lost(None, tap, true, 1000.0).contains("tap transient"), "a recorded stroke has contacts");
         assert!(lost(None, tap, true, 300.0).contains("so the transient has 120 Hz"));
         let of_texture = lost(Some(texture), None, false, 1000.0);
-        assert!(of_texture.contains("the picture"));
         assert_eq!(of_texture.contains("friction"), texture.model.friction().is_some());
+        // Every signal lacks the other speeds and forces; only the tap is worth a note.
+        let rendered =
+            Rendered { texture: Some(texture), tap: None, rate: Hertz(1000.0), follows_stroke: true };
+        assert_eq!(lost_of_tap(rendered), None);
+        assert!(lost_of_tap(Rendered { tap, follows_stroke: false, ..rendered }).is_some());
     }
 
     #[test]

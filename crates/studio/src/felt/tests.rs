@@ -154,12 +154,14 @@ fn a_simulated_texture_replaces_the_earlier_one_unless_something_else_needs_it()
     let mut project = Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "Stone");
     join_felt(&mut project, 1, Arc::clone(&earlier), None);
     assert!(project.texture().blend.locked.contains("earlier"), "pinned without a position, too");
+    assert!(project.is_own(0), "no other authored texture changes");
     let joined_after = |change: &dyn Fn(&mut Project)| {
         let mut project = project.clone();
         change(&mut project);
         join_felt(&mut project, 1, Arc::clone(&later), Some(&earlier));
         assert_eq!(project.solo.as_deref(), Some("later"));
         assert!(project.texture().blend.locked.contains("later"));
+        assert!(project.own.contains("later"));
         project.joined.iter().map(|joined| joined.id.clone()).collect::<Vec<_>>()
     };
     assert_eq!(joined_after(&|_| ()), ["later"]);

@@ -19,7 +19,7 @@ pub(super) fn drop_ui(ui: &Ui, axes: Axes, area: Rect, panel: &Panel<'_>, t: &To
     let pointer = ui.input(|i| i.pointer.latest_pos())?;
     let name = &panel.session.textures()[texture].name;
     let edit = authored_exactly(panel, texture);
-    let place = panel.session.space().position(texture).map(|at| axes.ui_from_space(at));
+    let place = panel.session.position(texture).map(|at| axes.ui_from_space(at));
     let radius = site_radius(axes);
     let painter = ui.ctx().layer_painter(LayerId::new(Order::Tooltip, Id::unique("dragged texture")));
     let is_over = ui.rect_contains_pointer(area);

@@ -11,6 +11,7 @@ use shagreen_core::space::heat_map::Quantity;
 
 use crate::command::Command;
 use crate::look::axes::Axes;
+use crate::look::list::ShowList as _;
 use crate::look::theme::{Tokens, map_color};
 use crate::strings::map as strings;
 
@@ -39,7 +40,7 @@ pub(super) fn map_choice_ui(ui: &mut Ui, map: Option<&ShownMap>) -> Option<Comma
     let shown = map.map(|map| map.quantity);
     let mut chosen = None;
     let combo = ComboBox::from_id_salt("map").width(104.0).truncate().selected_text(strings::name(shown));
-    let response = combo.show_ui(ui, |ui| {
+    let response = combo.show_list(ui, |ui| {
         for each in std::iter::once(None).chain(Quantity::ALL.map(Some)) {
             let entry = ui.selectable_label(shown == each, strings::name(each));
             if entry.on_hover_text(strings::help(each)).clicked() {

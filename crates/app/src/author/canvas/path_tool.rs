@@ -12,6 +12,7 @@ use crate::author::context_menu::had_open_menu;
 use crate::command::Command;
 use crate::look::axes::Axes;
 use crate::look::drag::dragged_to;
+use crate::look::list::ShowList as _;
 use crate::look::theme::Tokens;
 use crate::panel::Panel;
 use crate::state::edit::{Edit, PathChange};
@@ -194,7 +195,7 @@ pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &UserPath) 
     }
     let name = |along: Along| if along == Along::Distance { strings::DISTANCE } else { strings::TIME };
     let combo = ComboBox::from_id_salt("path along").width(76.0).selected_text(name(path.along));
-    let shown = combo.show_ui(ui, |ui| {
+    let shown = combo.show_list(ui, |ui| {
         for along in Along::ALL {
             if ui.selectable_label(path.along == along, name(along)).clicked() {
                 commands.push(change(PathChange::Along, Some(UserPath { along, ..path.clone() })));
@@ -203,7 +204,7 @@ pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &UserPath) 
     });
     shown.response.accessible_name(strings::ALONG).on_hover_text(strings::ALONG_HELP);
     let combo = ComboBox::from_id_salt("path end").width(84.0).selected_text(end_name(path.at_end));
-    let shown = combo.show_ui(ui, |ui| {
+    let shown = combo.show_list(ui, |ui| {
         for at_end in AtEnd::ALL {
             if ui.selectable_label(path.at_end == at_end, end_name(at_end)).clicked() {
                 commands.push(change(PathChange::AtEnd, Some(UserPath { at_end, ..path.clone() })));

@@ -1,13 +1,20 @@
 //! The authored points on the canvas.
 
-use egui::{CursorIcon, FontId, Key, Popup, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+mod compared_point;
+mod fan;
+mod names_ui;
+
+use egui::{CursorIcon, FontId, Key, Popup, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::Authored;
 use shagreen_formats::project::AuthoredTexture;
 
+use self::compared_point::{compared_point, compared_point_ui};
+use self::fan::fanned;
+use self::names_ui::names_ui;
 use super::path_tool::PathTool;
 use super::{BIG_STEP, POINT_SIZE, SITE_RADIUS, move_to, point_id, site_radius};
-use crate::author::authored_menu::authored_menu;
+use crate::author::authored_menu::{authored_keys, authored_menu};
 use crate::command::Command;
 use crate::look::axes::Axes;
 use crate::look::drag::dragged_to;
@@ -20,21 +27,34 @@ use crate::strings::{self, authored};
 /// Step of an arrow key, in axis units (0 to 100). With Shift it is [`BIG_STEP`].
 const STEP: f64 = 1.0;
 
-/// Draws the authored points, the selected one on top. A click or drag selects another one.
+/// Draws the authored points, the selected one on top, with lines from the audible one to the contributing textures. A
+/// click or drag selects another one. Points at one position fan out around the first one. Names of points avoid the areas in
+/// `covered`.
 pub(super) fn authored_points_ui(
     ui: &mut Ui,
     axes: Axes,
     panel: &Panel<'_>,
     tool: &PathTool,
+    covered: &[Rect],
     t: &Tokens,
 ) -> Vec<Command> {
     let mut commands = Vec::new();
-    for (index, texture) in panel.project.authored.iter().enumerate() {
+    if let Some(authored) = panel.session.authored() {
+        lines_to_parents(ui, axes, panel, authored, t);
+        outside_ui(ui, axes, panel, authored, t);
+    }
+    let textures = &panel.project.authored;
+    let places: Vec<Pos2> = textures.iter().map(|texture| axes.ui_from_space(texture.at)).collect();
+    let places = fanned(&places);
+    for (index, (texture, pos)) in textures.iter().zip(&places).enumerate() {
         if index != panel.project.selected {
-            commands.extend(other_point_ui(ui, axes, panel, texture, tool, t));
+            commands.extend(other_point_ui(ui, axes, panel, (texture, *pos), tool, t));
         }
     }
-    commands.extend(point_ui(ui, axes, panel, tool, t));
+    let selected = places.get(panel.project.selected);
+    let selected = selected.copied().unwrap_or_else(|| axes.ui_from_space(panel.project.texture().at));
+    commands.extend(point_ui(ui, axes, panel, selected, tool, t));
+    names_ui(ui, point_radius(axes, true), panel, &places, covered, t);
     commands
 }
 
@@ -46,17 +66,16 @@ fn point_sense(tool: &PathTool) -> Sense {
     if tool.is_on { Sense::hover() } else { Sense::click_and_drag() }
 }
 
-/// Draws an authored point that is not selected.
+/// Draws an authored point that is not selected, at a position on the canvas.
 fn other_point_ui(
     ui: &mut Ui,
     axes: Axes,
     panel: &Panel<'_>,
-    texture: &AuthoredTexture,
+    (texture, pos): (&AuthoredTexture, Pos2),
     tool: &PathTool,
     t: &Tokens,
 ) -> Vec<Command> {
     let mut commands = Vec::new();
-    let pos = axes.ui_from_space(texture.at);
     let area = Rect::from_center_size(pos, vec2(20.0, 20.0));
     let response = ui.interact(area, point_id(texture.key), point_sense(tool));
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, authored::on_canvas(&texture.name)));
@@ -64,23 +83,40 @@ fn other_point_ui(
         response.request_focus();
         commands.push(Command::Edit(Edit::Select(texture.key)));
     }
+    commands.extend(authored_keys(&response, panel, texture));
     commands.extend(authored_menu(&response, panel, texture));
     let is_pointed = response.hovered() || response.has_focus();
-    let radius = if is_pointed { 8.0 } else { 6.5 };
-    ui.painter().circle_filled(pos, radius + 2.0, t.background);
-    ui.painter().circle_filled(pos, radius, t.authored[usize::from(texture.color)]);
-    ui.painter().circle_filled(pos, 2.5, t.background);
+    if let Some(compared) = compared_point(panel, texture) {
+        compared_point_ui(ui, pos, point_radius(axes, is_pointed), compared, t);
+    } else {
+        let radius = if is_pointed { 8.0 } else { 6.5 };
+        ui.painter().circle_filled(pos, radius + 2.0, t.background);
+        ui.painter().circle_filled(pos, radius, t.authored[usize::from(texture.color)]);
+        ui.painter().circle_filled(pos, 2.5, t.background);
+    }
     let name = format!("{} {}", texture.name, texture.at);
     response.on_hover_text(name);
     commands
 }
 
-/// Draws the selected authored point with lines to the contributing textures, and handles its drags and arrow keys.
-fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tokens) -> Vec<Command> {
+/// Radius of the selected point, and of those that are compared, in points.
+fn point_radius(axes: Axes, is_pointed: bool) -> f32 {
+    let usual = if is_pointed { 13.0 } else { 11.0 };
+    usual * site_radius(axes) / SITE_RADIUS
+}
+
+/// Draws the selected authored point at `pos` on the canvas, and handles its drags and arrow keys.
+fn point_ui(
+    ui: &mut Ui,
+    axes: Axes,
+    panel: &Panel<'_>,
+    pos: Pos2,
+    tool: &PathTool,
+    t: &Tokens,
+) -> Vec<Command> {
     let mut commands = Vec::new();
     let texture = panel.project.texture();
     let point = texture.at;
-    let pos = axes.ui_from_space(point);
     let id = point_id(texture.key);
     let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, point_sense(tool));
     response.widget_info(|| WidgetInfo {
@@ -99,24 +135,12 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tok
     if let Some(to) = nudged(ui, id, point) {
         commands.push(move_to(to));
     }
-    if let Some(authored) = panel.session.authored() {
-        lines_to_parents(ui, axes, panel, authored, t);
-        outside_ui(ui, axes, panel, authored, t);
+    let grown = point_radius(axes, response.hovered() || response.dragged() || response.has_focus());
+    if let Some(compared) = compared_point(panel, texture) {
+        compared_point_ui(ui, pos, grown, compared, t);
+    } else {
+        selected_disc_ui(ui, pos, grown, panel, t);
     }
-    let is_grown = response.hovered() || response.dragged() || response.has_focus();
-    let grown = if is_grown { 13.0 } else { 11.0 } * site_radius(axes) / SITE_RADIUS;
-    ui.painter().circle_filled(pos, grown + 2.5, t.background);
-    ui.painter().circle_filled(pos, grown, t.accent);
-    // The surface at this point, as on the pad.
-    if let Some((surface, [width_mm, height_mm])) = panel.pictures.surface() {
-        let part = vec2((SHOWN_MM / width_mm) as f32, (SHOWN_MM / height_mm) as f32);
-        let uv = Rect::from_min_size(egui::Pos2::ZERO, part);
-        let inner = Rect::from_center_size(pos, vec2(2.0, 2.0) * (grown - 2.5));
-        let disc = egui::epaint::RectShape::filled(inner, grown - 2.5, egui::Color32::WHITE);
-        ui.painter().add(disc.with_texture(surface, uv));
-    }
-    ui.painter().circle_filled(pos, 4.0, t.background);
-    ui.painter().circle_filled(pos, 3.0, t.authored[usize::from(texture.color)]);
     if response.has_focus() {
         ui.painter().circle_stroke(pos, grown + 4.0, Stroke::new(1.5, t.accent));
     }
@@ -129,6 +153,22 @@ fn point_ui(ui: &mut Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool, t: &Tok
         response.on_hover_text(help);
     }
     commands
+}
+
+/// Draws the disc of the selected point, with the surface at this point as on the pad, and the color of the texture.
+fn selected_disc_ui(ui: &Ui, pos: Pos2, radius: f32, panel: &Panel<'_>, t: &Tokens) {
+    let painter = ui.painter();
+    painter.circle_filled(pos, radius + 2.5, t.background);
+    painter.circle_filled(pos, radius, t.accent);
+    if let Some((surface, [width_mm, height_mm])) = panel.pictures.surface() {
+        let part = vec2((SHOWN_MM / width_mm) as f32, (SHOWN_MM / height_mm) as f32);
+        let uv = Rect::from_min_size(Pos2::ZERO, part);
+        let inner = Rect::from_center_size(pos, vec2(2.0, 2.0) * (radius - 2.5));
+        let disc = egui::epaint::RectShape::filled(inner, radius - 2.5, egui::Color32::WHITE);
+        painter.add(disc.with_texture(surface, uv));
+    }
+    painter.circle_filled(pos, 4.0, t.background);
+    painter.circle_filled(pos, 3.0, t.authored[usize::from(panel.project.texture().color)]);
 }
 
 fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
@@ -145,7 +185,7 @@ fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored,
 
 /// Outside the convex hull: marks the nearest point of the hull that plays instead, or the distance of extrapolation.
 fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
-    let wanted = panel.session.path_point().unwrap_or(panel.project.texture().at);
+    let wanted = panel.session.path_point().unwrap_or(panel.inspected().at);
     let pos = axes.ui_from_space(wanted);
     let on = axes.ui_from_space(authored.location.at);
     let painter = ui.painter();

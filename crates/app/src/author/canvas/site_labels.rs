@@ -23,7 +23,7 @@ pub(super) struct Around<'a> {
 
 /// Draws the names of the textures at `sites`, whose dots all have the same `radius`.
 /// Names of contributing textures and of the texture under the pointer (`pointed`) are always drawn, even over other
-/// items. Other names are left out if they do not fit.
+/// items. Other names are left out if they do not fit. Returns the areas of the drawn names.
 pub(super) fn site_labels(
     ui: &Ui,
     panel: &Panel<'_>,
@@ -32,7 +32,7 @@ pub(super) fn site_labels(
     around: &Around<'_>,
     pointed: Option<usize>,
     t: &Tokens,
-) {
+) -> Vec<Rect> {
     let rank = |dot: usize| panel.session.parent_rank(sites[dot].0);
     let is_pointed = |dot: usize| pointed == Some(sites[dot].0);
     let galley = |dot: usize| {
@@ -66,6 +66,7 @@ pub(super) fn site_labels(
     };
     // Names that must be drawn are drawn last.
     let mut order: Vec<usize> = (0..sites.len()).collect();
+    let mut drawn = Vec::new();
     order.sort_by_key(|dot| (is_pointed(*dot), rank(*dot).map_or(0, |rank| 3 - rank.min(2))));
     for dot in order {
         let is_parent = rank(dot).is_some();
@@ -86,5 +87,7 @@ pub(super) fn site_labels(
         };
         ui.painter().rect_filled(area.expand2(vec2(4.0, -1.0)), 3.0, t.background.gamma_multiply(back));
         ui.painter().galley(area.min, Arc::clone(galley), *color);
+        drawn.push(area);
     }
+    drawn
 }

@@ -6,23 +6,37 @@ use shagreen_core::space::SpacePoint;
 
 use super::path_tool::{PathTool, added};
 use super::site_labels::{Around, site_labels};
-use super::{POINT_SIZE, SITE_RADIUS, site_radius};
-use crate::author::context_menu::{context_menu, had_open_menu};
-use crate::author::exact::taken;
+use super::{OTHER_POINT, POINT_SIZE, SITE_RADIUS, site_radius};
+use crate::author::context_menu::context_menu;
+use crate::author::exact::clicked;
 use crate::author::locks::lock_mark;
 use crate::author::texture_menu::texture_menu;
-use crate::author::texture_picture::place_in_words;
+use crate::author::texture_picture::{picture_ui, place_in_words};
+use crate::author::whole_space::only_in;
 use crate::command::Command;
 use crate::look::axes::Axes;
 use crate::look::theme::Tokens;
 use crate::panel::Panel;
-use crate::strings::{self};
+use crate::strings::{self, textures};
 
+/// Side of the picture in a tooltip, in points.
+const HOVER_SIDE: f32 = 96.0;
+/// Radius of a texture that takes no part in the authored texture, as a fraction of that of the others.
+const LEFT_OUT: f32 = 0.5;
 /// Maximum number of textures shown as pictures; if there are more, each texture is a dot.
 const MAX_PICTURES: usize = 60;
 
-/// Draws the textures; a click chooses one. Returns the commands, and the texture under the pointer. Texture names avoid
-/// the axis labels in `words`.
+/// What [`sites_ui`] has drawn.
+pub(super) struct DrawnSites {
+    pub(super) commands: Vec<Command>,
+    /// Texture under the pointer.
+    pub(super) pointed: Option<usize>,
+    /// Areas that pictures, names and axis labels cover.
+    pub(super) covered: Vec<Rect>,
+}
+
+/// Draws the textures; a click plays one alone. Texture names avoid the axis labels in `words` and the authored points that
+/// are not selected.
 pub(super) fn sites_ui(
     ui: &mut Ui,
     axes: Axes,
@@ -31,9 +45,10 @@ pub(super) fn sites_ui(
     words: &[Rect],
     on_map: bool,
     t: &Tokens,
-) -> (Vec<Command>, Option<usize>) {
+) -> DrawnSites {
     let (mut commands, mut under_pointer) = (Vec::new(), None);
-    let sites = panel.session.space().sites();
+    let sites: Vec<(usize, SpacePoint)> = panel.session.placed().collect();
+    let left_out = panel.session.left_out(&panel.inspected().blend);
     let with_pictures = sites.len() <= MAX_PICTURES;
     let radius = if with_pictures { site_radius(axes) } else { 3.0 };
     // Contributing textures are drawn last, on top of the others.
@@ -45,14 +60,19 @@ pub(super) fn sites_ui(
     for (texture, at) in order {
         let pos = axes.ui_from_space(*at);
         let entry = &panel.session.textures()[*texture];
+        let is_left_out = left_out.contains(texture);
+        let radius = if is_left_out { LEFT_OUT * radius } else { radius };
         let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
         let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
-        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::go_to(&entry.name)));
-        if response.clicked() && !had_open_menu(ui.ctx()) {
-            let chosen = || taken(panel, *texture).map(Command::Edit);
-            commands.extend(if tool.is_on { added(panel, *at) } else { chosen() });
+        response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::play_texture(&entry.name)));
+        if let Some(edit) = clicked(&response, panel, *texture) {
+            commands.extend(if tool.is_on { added(panel, *at) } else { Some(Command::Edit(edit)) });
         }
-        site(ui, panel, *texture, pos, radius, &response, t);
+        if is_left_out {
+            left_out_site(ui, pos, radius, &response, t);
+        } else {
+            site(ui, panel, *texture, pos, radius, &response, t);
+        }
         if response.hovered() {
             under_pointer = Some(*texture);
         }
@@ -62,28 +82,55 @@ pub(super) fn sites_ui(
         // With a thousand textures, tooltips and menus are built only where they can be needed.
         if response.hovered() || response.has_focus() || has_open_menu {
             context_menu(&response, |ui| commands.extend(texture_menu(ui, panel, *texture)));
-            response.on_hover_text(site_help(panel, *texture, *at));
+            response.on_hover_ui(|ui| site_hover_ui(ui, panel, *texture, *at));
         }
     }
     let named: Vec<(usize, Pos2)> = sites
         .iter()
-        .filter(|(texture, _)| with_pictures || rank(*texture).is_some() || pointed == Some(*texture))
+        .filter(|(texture, _)| {
+            let is_shown = with_pictures && !left_out.contains(texture);
+            is_shown || rank(*texture).is_some() || pointed == Some(*texture)
+        })
         .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
         .collect();
-    let point = Rect::from_center_size(axes.ui_from_space(panel.project.texture().at), POINT_SIZE);
-    site_labels(ui, panel, &named, radius, &Around { words, point, on_map }, pointed, t);
-    (commands, under_pointer)
+    let point = Rect::from_center_size(axes.ui_from_space(panel.inspected().at), POINT_SIZE);
+    let other_points = panel.project.authored.iter().enumerate();
+    let other_points = other_points.filter(|(index, _)| *index != panel.project.selected);
+    let other_points =
+        other_points.map(|(_, texture)| Rect::from_center_size(axes.ui_from_space(texture.at), OTHER_POINT));
+    let words: Vec<Rect> = words.iter().copied().chain(other_points).collect();
+    let around = Around { words: &words, point, on_map };
+    let mut covered = site_labels(ui, panel, &named, radius, &around, pointed, t);
+    covered.extend(words);
+    let disc = |(_, at): &(usize, SpacePoint)| {
+        Rect::from_center_size(axes.ui_from_space(*at), vec2(2.0 * radius, 2.0 * radius))
+    };
+    covered.extend(sites.iter().map(disc));
+    DrawnSites { commands, pointed: under_pointer, covered }
 }
 
-/// Tooltip of a texture: its name, position and source, and how the field treats it there.
+/// Draws the tooltip of a texture: its picture, and the text below it.
+fn site_hover_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize, at: SpacePoint) {
+    ui.set_max_width(ui.spacing().tooltip_width);
+    let (picture, _) = ui.allocate_exact_size(vec2(HOVER_SIDE, HOVER_SIDE), Sense::hover());
+    picture_ui(ui, panel, texture, picture);
+    ui.label(site_help(panel, texture, at));
+}
+
+/// Text of the tooltip: the texture's name, position and source, and how the field treats it there.
 fn site_help(panel: &Panel<'_>, texture: usize, at: SpacePoint) -> String {
     let name = &panel.session.textures()[texture].name;
-    let help = format!("{name}\n{}", place_in_words(panel, texture, at));
-    if !panel.project.texture().blend.can_lock() {
-        return help;
+    let mut help = format!("{name}\n{}", place_in_words(panel, texture, at));
+    if let Some(only_in) = only_in(panel, texture) {
+        help = format!("{help}\n{only_in}");
     }
-    let is_locked = panel.is_locked(texture);
-    format!("{help}\n{}", if is_locked { strings::LOCKED } else { strings::SMOOTHED })
+    let blend = &panel.inspected().blend;
+    if !blend.can_lock() || panel.session.left_out(blend).contains(&texture) {
+        return format!("{help}\n{}", textures::CLICK_HELP);
+    }
+    let is_locked = blend.is_locked(&panel.session.textures()[texture].id);
+    let pinned = if is_locked { strings::LOCKED } else { strings::SMOOTHED };
+    format!("{help}\n{pinned}\n{}", textures::CLICK_HELP)
 }
 
 /// Picture of a texture as a disc around `pos`, or `None` while there is none.
@@ -93,6 +140,13 @@ pub(super) fn picture_disc(panel: &Panel<'_>, texture: usize, pos: Pos2, radius:
     // The middle 40 % of the picture in each direction: at this size its grain remains visible.
     let uv = Rect::from_min_max(pos2(0.3, 0.3), pos2(0.7, 0.7));
     Some(RectShape::filled(area, radius, Color32::WHITE).with_texture(picture.id(), uv))
+}
+
+/// Draws a texture that takes no part in the authored texture.
+fn left_out_site(ui: &Ui, pos: Pos2, radius: f32, response: &Response, t: &Tokens) {
+    let is_pointed = response.hovered() || response.has_focus();
+    let color = if is_pointed { t.text } else { t.text_weak };
+    ui.painter().circle_stroke(pos, radius, Stroke::new(1.5, color));
 }
 
 fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, response: &Response, t: &Tokens) {
@@ -117,7 +171,7 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, resp
     if let Some(ring) = ring {
         painter.circle_stroke(pos, radius, ring);
     }
-    if panel.is_locked(texture) {
+    if panel.inspected().blend.is_locked(&panel.session.textures()[texture].id) {
         let corner = pos + Vec2::angled(-std::f32::consts::FRAC_PI_4) * (radius + 2.0);
         painter.circle_filled(corner, 8.0, t.background);
         lock_mark(painter, corner, true, t.text);

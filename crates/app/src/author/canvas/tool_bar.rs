@@ -16,8 +16,8 @@ pub(super) struct BarOutcome {
     pub(super) commands: Vec<Command>,
     /// Requested view.
     pub(super) view: Option<View>,
-    /// Height of the rows, in points.
-    pub(super) height: f32,
+    /// Area of the rows.
+    pub(super) area: Rect,
 }
 
 /// Draws the controls of the map, the view and the path, in rows no wider than `width` points.
@@ -56,5 +56,5 @@ pub(super) fn tool_bar(
     });
     let back = row.min_rect();
     row.painter().set(shape, Shape::rect_filled(back, f32::from(RADIUS), t.background.gamma_multiply(0.85)));
-    BarOutcome { commands, view, height: back.height() }
+    BarOutcome { commands, view, area: back }
 }

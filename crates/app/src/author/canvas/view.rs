@@ -46,7 +46,7 @@ pub(super) fn view_buttons(ui: &mut Ui, axes: Axes, panel: &Panel<'_>) -> Option
             asked = Some(view);
         }
     }
-    let sites: Vec<SpacePoint> = panel.session.space().sites().iter().map(|(_, at)| *at).collect();
+    let sites: Vec<SpacePoint> = panel.session.placed().map(|(_, at)| at).collect();
     let fit = View::around(&sites);
     // If the view already fits all textures, the button shows the whole space instead.
     let (name, view) =

@@ -6,6 +6,7 @@ use shagreen_device::hand::Path;
 use super::{FORCES_N, PadState, SPEEDS_MM_PER_S};
 use crate::command::Command;
 use crate::command::stroke::StrokeCommand;
+use crate::look::list::ShowList as _;
 use crate::look::theme::{GAP, tokens};
 use crate::panel::Panel;
 use crate::session::Session;
@@ -25,7 +26,8 @@ pub(super) fn controls_ui(ui: &mut Ui, panel: &Panel<'_>, state: &mut PadState) 
     let mut commands = Vec::new();
     let session = panel.session;
     ui.horizontal(|ui| {
-        let running = session.hand_is_running();
+        // The stroke of a preview ends by itself; the button starts one that does not.
+        let running = session.hand_is_running() && !state.is_preview;
         let text = if running { strings::HAND_STOP } else { strings::HAND_START };
         // The one primary action of the page.
         let t = tokens(ui.ctx());
@@ -69,7 +71,7 @@ fn path_ui(ui: &mut Ui, session: &Session, state: &mut PadState) -> Option<Comma
     let mut command = None;
     let chosen = if state.repeats { stroke::RECORDED } else { path_name(state.hand.path) };
     let combo = ComboBox::from_id_salt("path of the hand").width(PATH_WIDTH).truncate();
-    let shown = combo.selected_text(chosen).show_ui(ui, |ui| {
+    let shown = combo.selected_text(chosen).show_list(ui, |ui| {
         for path in [Path::Line, Path::Circle, Path::Scribble] {
             let is_chosen = !state.repeats && state.hand.path == path;
             if ui.selectable_label(is_chosen, path_name(path)).clicked() {

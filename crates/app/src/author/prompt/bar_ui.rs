@@ -6,6 +6,7 @@ use shagreen_formats::settings::KeptPrompt;
 use super::Prompts;
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
+use crate::look::list::ShowList as _;
 use crate::look::motion::busy_ui;
 use crate::strings::prompt as words;
 
@@ -74,7 +75,7 @@ fn generator_ui(ui: &mut Ui, prompts: &mut Prompts) {
         return;
     }
     let chosen = if prompts.by_diffusion { words::DIFFUSION } else { words::PROCEDURAL };
-    let choice = ComboBox::from_id_salt("generator").selected_text(chosen).show_ui(ui, |ui| {
+    let choice = ComboBox::from_id_salt("generator").selected_text(chosen).show_list(ui, |ui| {
         ui.selectable_value(&mut prompts.by_diffusion, false, words::PROCEDURAL);
         ui.selectable_value(&mut prompts.by_diffusion, true, words::DIFFUSION);
     });

@@ -1,7 +1,8 @@
-//! Row about the last estimate: its picture, its position with uncertainty, and how the prompt was interpreted.
+//! Card about the last estimate, over the map: its picture, its position with uncertainty, and how the prompt was interpreted.
 
 use egui::{
-    Align, Button, Label, Layout, Rect, RichText, Role, Sense, TextureHandle, Ui, WidgetInfo, pos2, vec2,
+    Align, Button, Label, Layout, Rect, RichText, Role, Sense, Stroke, StrokeKind, TextureHandle, Ui,
+    WidgetInfo, pos2, vec2,
 };
 
 use super::{Origin, PositionEstimate};
@@ -10,25 +11,66 @@ use crate::command::prompt::PromptCommand;
 use crate::look::icons::close_button;
 use crate::look::theme::{GAP, RADIUS, tokens};
 use crate::panel::Panel;
-use crate::strings::prompt as words;
+use crate::strings::{self, prompt as words};
 
-/// Height of the row, in points.
+/// Height of the picture and its margin, in points: the least height of the card.
 const HEIGHT: f32 = 58.0;
+/// Maximum width of the card, in points.
+const WIDTH: f32 = 640.0;
+/// Distance of the card from the upper edge of the map, below the controls of the map, in points.
+const BELOW_BAR: f32 = 34.0;
+/// Distance of the card from the other edges of the map, in points.
+const MARGIN: f32 = 10.0;
+/// Distance of the card from the lower edge of the map, above the words of the axis, in points.
+const ABOVE_FOOT: f32 = 30.0;
+/// Time after a click that closes the card in which clicks at its place do nothing, in seconds.
+const DOUBLE_CLICK_SECS: f64 = 0.6;
 /// Number of nearest textures that are named.
 const N_NEAR: usize = 3;
 
-/// Draws the row; returns the requested command. `picture` is the picture on the graphics card, once uploaded.
+/// Place of the card.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct CardPlace {
+    /// Height in the last frame, in points.
+    height: Option<f32>,
+    /// Area of a card that was just closed, and the time of that, in seconds.
+    closed: Option<(Rect, f64)>,
+}
+
+impl CardPlace {
+    /// Takes the clicks at the place of a card that was just closed, so that a second click changes nothing below it.
+    /// Called after the map is drawn.
+    pub(crate) fn block(&mut self, ui: &Ui) {
+        let now_secs = ui.input(|i| i.time);
+        self.closed = self.closed.filter(|(_, since)| now_secs - since < DOUBLE_CLICK_SECS);
+        if let Some((area, _)) = self.closed {
+            ui.interact(area, ui.scope_id().with("closed card"), Sense::CLICK | Sense::DRAG);
+        }
+    }
+}
+
+/// Draws the card over the map, so that the map does not move: at the edge that is farther from the estimated position.
+/// Returns the requested command. `picture` is the picture on the graphics card, once uploaded.
 pub(crate) fn card_ui(
     ui: &mut Ui,
+    map: Rect,
+    place: &mut CardPlace,
     panel: &Panel<'_>,
     guess: &PositionEstimate,
     is_busy: bool,
     picture: Option<&TextureHandle>,
 ) -> Option<Command> {
     let t = tokens(ui.ctx());
-    let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
+    let height = place.height.unwrap_or(HEIGHT);
+    let width = (map.width() - 2.0 * MARGIN).min(WIDTH);
+    let is_above = guess.at().hard_soft < 50.0;
+    let top = if is_above { map.top() + BELOW_BAR } else { map.bottom() - ABOVE_FOOT - height };
+    let area = Rect::from_min_size(pos2(map.center().x - 0.5 * width, top), vec2(width, height));
+    // Below the card, nothing is pointed at or clicked.
+    let response = ui.interact(area, ui.scope_id().with("card"), Sense::CLICK | Sense::DRAG);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words::guessed(&guess.name)));
     ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
+    ui.painter().rect_stroke(area, f32::from(RADIUS), Stroke::new(1.0, t.line), StrokeKind::Inside);
     let side = HEIGHT - 8.0;
     let frame = Rect::from_min_size(area.min + vec2(4.0, 4.0), vec2(side, side));
     if let Some(picture) = picture {
@@ -41,12 +83,16 @@ pub(crate) fn card_ui(
         ui.painter().rect_filled(frame, f32::from(RADIUS) - 1.0, t.background);
     }
     let mut asked = None;
-    let right = Rect::from_min_max(pos2(area.right() - 118.0, area.top()), area.max - vec2(6.0, 0.0));
+    let right = Rect::from_min_max(
+        pos2(area.right() - 118.0, area.top()),
+        pos2(area.right() - 6.0, area.top() + HEIGHT),
+    );
     let mut buttons =
         ui.new_child(egui::UiBuilder::new().max_rect(right).layout(Layout::right_to_left(Align::Center)));
     let close = close_button(buttons.ctx());
     if buttons.add(close).accessible_name(words::DISMISS).on_hover_text(words::DISMISS).clicked() {
         asked = Some(PromptCommand::Dismiss);
+        place.closed = Some((area, ui.input(|i| i.time)));
     }
     if matches!(guess.origin, Origin::Words { .. }) {
         let another = buttons.add_enabled(!is_busy, Button::new(words::ANOTHER));
@@ -62,23 +108,30 @@ pub(crate) fn card_ui(
     lines.spacing_mut().item_spacing.y = 2.0;
     let poles = panel.session.poles();
     let along = |axis: usize| words::along(&poles[axis], guess.axes[axis].mean, guess.axes[axis].deviation);
-    let place = format!("{} · {}", along(0), along(1));
-    lines.add(Label::new(RichText::new(place).strong()).truncate().selectable(false));
+    let position = Label::new(RichText::new(format!("{} · {}", along(0), along(1))).strong());
+    let help = poles.each_ref().map(strings::axis_help).join("\n");
+    lines.add(position.truncate().selectable(false)).on_hover_text(help);
     let near = words::near(&nearest(panel, guess));
     lines.add(Label::new(RichText::new(near).small()).truncate().selectable(false));
     let all = guess.said.join(" ");
     let color = if guess.is_disputed { t.warning } else { t.text_weak };
-    let said = Label::new(RichText::new(&all).small().color(color)).truncate().selectable(false);
-    lines.add(said).on_hover_text(guess.said.join("\n"));
+    lines.add(Label::new(RichText::new(&all).small().color(color)).wrap().selectable(false));
+    let needed = (lines.min_rect().bottom() + 5.0 - area.top()).max(HEIGHT);
+    if (needed - height).abs() > 0.5 {
+        ui.ctx().request_discard("the height of the card has changed");
+    }
+    place.height = Some(needed);
     asked.map(Command::Prompt)
 }
 
-/// Names of the nearest textures, nearest first.
+/// Names of the nearest textures of the selected authored texture, nearest first, without the one that was simulated from the picture.
 fn nearest(panel: &Panel<'_>, guess: &PositionEstimate) -> Vec<String> {
     let at = guess.at();
-    let mut near: Vec<(f64, usize)> =
-        panel.session.space().sites().iter().map(|(texture, site)| (site.distance(at), *texture)).collect();
+    let textures = panel.session.textures();
+    let sites = panel.session.placed_for(&panel.project.texture().blend).into_iter();
+    let others = sites.filter(|(texture, _)| textures[*texture].picture.as_ref() != Some(&*guess.picture));
+    let mut near: Vec<(f64, usize)> = others.map(|(texture, site)| (site.distance(at), texture)).collect();
     near.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let name = |(_, texture): &(f64, usize)| panel.session.textures()[*texture].name.clone();
+    let name = |(_, texture): &(f64, usize)| textures[*texture].name.clone();
     near.iter().take(N_NEAR).map(name).collect()
 }

@@ -38,7 +38,7 @@ pub(super) fn about_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize) {
         fact(words::IDENTIFIER, entry.id.clone(), words::IDENTIFIER_HELP),
         fact(words::PART_OF, part_of, ""),
     ];
-    match session.space().position(texture) {
+    match session.position(texture) {
         Some(at) => {
             let source = session.place_source(texture);
             let is_simulated = source == Some(LabelSource::SimulatedRaters);
@@ -57,7 +57,9 @@ pub(super) fn about_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize) {
     facts.push(fact(words::TAGS_LABEL, tags, ""));
     facts.push(fact(import::TERMS, or_unknown(library.license_of(entry)), words::TERMS_HELP));
     let passing_on = match entry.provenance {
-        Provenance::Free => fact(words::PASSING_ON, words::PASSED_ON_FREELY.to_owned(), ""),
+        Provenance::Free => {
+            fact(words::PASSING_ON, words::passed_on(library.license_of(entry)).to_owned(), "")
+        }
         Provenance::Restricted => {
             Fact { color: Some(t.warning), ..fact(words::PASSING_ON, import::RESTRICTED.to_owned(), "") }
         }

@@ -2,9 +2,13 @@
 
 use std::sync::Arc;
 
-use shagreen_core::space::authoring::Voice;
-use shagreen_core::texture::plane::Plane;
+use shagreen_core::space::authoring::{Authored, Voice};
+use shagreen_core::texture::height_map::HeightMap;
+use shagreen_core::texture::plane::{Plane, Prepared};
 use shagreen_core::texture::shape::Shape;
+use shagreen_formats::library::TextureEntry;
+use shagreen_studio::authoring::shaped_plane_at;
+use shagreen_studio::report::Warnings;
 
 use super::super::loaded_textures::Textures;
 use super::{Made, numbered, plane_of};
@@ -18,6 +22,34 @@ pub(in crate::session) struct ShapedTextures {
     shape: Shape,
     /// Oldest first.
     textures: Vec<ShapedTexture>,
+}
+
+/// Library texture with a height map that is not there in a shape yet. Preparing it takes so long that a worker does it.
+pub(in crate::session) struct Unshaped {
+    texture: usize,
+    entry: TextureEntry,
+    /// Plane without the shape.
+    plane: Arc<Plane>,
+    shape: Shape,
+}
+
+/// Library texture in a shape, prepared for the renderer.
+pub(in crate::session) struct Shaped {
+    texture: usize,
+    unshaped: Arc<Plane>,
+    shape: Shape,
+    plane: Arc<Plane>,
+    prepared: Arc<Prepared>,
+}
+
+impl Unshaped {
+    /// The texture in its shape; `None` if it cannot have it.
+    pub(in crate::session) fn shaped(self) -> Option<Shaped> {
+        let Self { texture, entry, plane: unshaped, shape } = self;
+        let plane = shaped_plane_at(&entry, &shape, unshaped.rate(), &Warnings::default()).ok()?;
+        let prepared = Arc::new(plane.prepare());
+        Some(Shaped { texture, unshaped, shape, plane: Arc::new(plane), prepared })
+    }
 }
 
 struct ShapedTexture {
@@ -41,26 +73,71 @@ impl ShapedTextures {
         textures: &Textures,
         n_made: &mut u64,
     ) -> Result<(Arc<Plane>, Made), String> {
-        if self.shape != *shape {
-            self.shape = *shape;
-            self.textures.clear();
-        }
+        self.follow(shape);
         let unshaped = &textures.planes[texture];
-        let is_it = |kept: &&ShapedTexture| kept.texture == texture && Arc::ptr_eq(&kept.unshaped, unshaped);
-        if let Some(kept) = self.textures.iter().find(is_it) {
+        if let Some(kept) = self.find(texture, unshaped) {
             return Ok((Arc::clone(&kept.plane), kept.made.clone()));
         }
         let plane = plane_of(Voice::Texture(texture), shape, &textures.library, &textures.planes)?;
         let (plane, made) = numbered(plane, n_made);
-        if self.textures.len() >= MOST {
-            self.textures.remove(0);
-        }
-        self.textures.push(ShapedTexture {
+        self.keep(ShapedTexture {
             texture,
             unshaped: Arc::clone(unshaped),
             plane: Arc::clone(&plane),
             made: made.clone(),
         });
         Ok((plane, made))
+    }
+
+    /// Textures of the library among the voices of `authored` whose height maps must be prepared in its shape.
+    pub(in crate::session) fn missing(&self, authored: &Authored, textures: &Textures) -> Vec<Unshaped> {
+        let shape = authored.shape;
+        if shape.is_neutral() {
+            return Vec::new();
+        }
+        let missing = |(voice, _): (Voice<'_>, f64)| {
+            let Voice::Texture(texture) = voice else { return None };
+            let (entry, unshaped) = (&textures.library.textures[texture], &textures.planes[texture]);
+            let is_there = self.shape == shape && self.find(texture, unshaped).is_some();
+            // A prepared map stays so unless it is stretched.
+            let is_slow = |map: &Arc<HeightMap>| shape.grain != 1.0 || !map.is_prepared();
+            (!is_there && entry.model.height_map().is_some_and(is_slow)).then(|| Unshaped {
+                texture,
+                entry: entry.clone(),
+                plane: Arc::clone(unshaped),
+                shape,
+            })
+        };
+        authored.voices().into_iter().filter_map(missing).collect()
+    }
+
+    /// Keeps a texture that a worker has made, under the next number after `n_made`.
+    pub(in crate::session) fn take(&mut self, shaped: Shaped, n_made: &mut u64) {
+        let Shaped { texture, unshaped, shape, plane, prepared } = shaped;
+        self.follow(&shape);
+        if self.find(texture, &unshaped).is_none() {
+            *n_made += 1;
+            let made = Made { number: *n_made, prepared };
+            self.keep(ShapedTexture { texture, unshaped, plane, made });
+        }
+    }
+
+    fn follow(&mut self, shape: &Shape) {
+        if self.shape != *shape {
+            self.shape = *shape;
+            self.textures.clear();
+        }
+    }
+
+    fn find(&self, texture: usize, unshaped: &Arc<Plane>) -> Option<&ShapedTexture> {
+        let is_it = |kept: &&ShapedTexture| kept.texture == texture && Arc::ptr_eq(&kept.unshaped, unshaped);
+        self.textures.iter().find(is_it)
+    }
+
+    fn keep(&mut self, texture: ShapedTexture) {
+        if self.textures.len() >= MOST {
+            self.textures.remove(0);
+        }
+        self.textures.push(texture);
     }
 }

@@ -12,6 +12,7 @@ use shagreen_formats::actuator_toml::read_actuator;
 
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::browse::Asked;
+use crate::look::list::ShowList as _;
 use crate::look::plot::fixed;
 use crate::look::theme::tokens;
 use crate::state::background::in_background;
@@ -29,6 +30,7 @@ impl DevicesSheet {
         heading(ui, strings::ACTUATOR);
         row(ui, strings::DEVICE, |ui| self.choice_ui(ui));
         row(ui, strings::PROFILE_PATH, |ui| self.file_ui(ui));
+        self.browse.missing_ui(ui);
         if let Some(message) = &self.message {
             warning(ui, message);
         }
@@ -85,7 +87,7 @@ impl DevicesSheet {
         let chosen = self.rig.actuator().map_or(none, |a| a.name.as_str()).to_owned();
         let mut taken = None;
         let combo = ComboBox::from_id_salt("actuator").width(260.0).truncate().selected_text(&chosen);
-        let shown = combo.show_ui(ui, |ui| {
+        let shown = combo.show_list(ui, |ui| {
             if ui.selectable_label(self.rig.mounted.is_none() && !is_missing, strings::UNCALIBRATED).clicked()
             {
                 taken = Some(None);

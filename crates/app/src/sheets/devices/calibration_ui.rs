@@ -5,6 +5,7 @@ use egui::{Button, ComboBox, Context, DragValue, ProgressBar, Ui};
 use super::calibration::{Job, Question, name_of};
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::command::Command;
+use crate::look::list::ShowList as _;
 use crate::session::Session;
 use crate::strings::devices as strings;
 
@@ -68,7 +69,7 @@ impl DevicesSheet {
             let chosen =
                 question.input.as_deref().map_or(strings::CHOOSE_INPUT.to_owned(), |id| name_of(inputs, id));
             let combo = ComboBox::from_id_salt("input").width(260.0).truncate().selected_text(chosen);
-            let shown = combo.show_ui(ui, |ui| {
+            let shown = combo.show_list(ui, |ui| {
                 for input in inputs {
                     let label = ui.selectable_value(&mut question.input, Some(input.id.clone()), &input.name);
                     label.on_hover_text(&input.id);

@@ -3,6 +3,7 @@
 use egui::{ComboBox, Ui};
 
 use crate::command::Command;
+use crate::look::list::ShowList as _;
 use crate::session::Session;
 use crate::strings;
 
@@ -15,7 +16,7 @@ pub(crate) fn output_choice_ui(ui: &mut Ui, session: &Session) -> Option<Command
         strings::NO_OUTPUT
     });
     let combo = ComboBox::from_id_salt("output").width(210.0).truncate().selected_text(current);
-    let shown = combo.show_ui(ui, |ui| {
+    let shown = combo.show_list(ui, |ui| {
         for output in session.outputs() {
             let selected = session.output_id() == Some(output.id.as_str());
             if ui.selectable_label(selected, &output.name).on_hover_text(&output.id).clicked() {

@@ -5,6 +5,7 @@ use shagreen_device::status::LinkState;
 
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::command::Command;
+use crate::look::list::ShowList as _;
 use crate::look::theme::tokens;
 use crate::session::Session;
 use crate::sheets::devices::output_choice_ui::output_choice_ui;
@@ -25,7 +26,7 @@ impl DevicesSheet {
         row(ui, strings::BUFFER, |ui| {
             let combo = ComboBox::from_id_salt("buffer").width(210.0);
             let shown =
-                combo.selected_text(strings::buffer(self.rig.buffer_frames, rate_hz)).show_ui(ui, |ui| {
+                combo.selected_text(strings::buffer(self.rig.buffer_frames, rate_hz)).show_list(ui, |ui| {
                     for frames in BUFFERS {
                         ui.selectable_value(
                             &mut self.rig.buffer_frames,
@@ -41,7 +42,7 @@ impl DevicesSheet {
             let name =
                 |channel: Option<usize>| channel.map_or(strings::FIRST_TWO.to_owned(), strings::channel);
             let combo = ComboBox::from_id_salt("channels").width(210.0).selected_text(name(self.rig.channel));
-            let shown = combo.show_ui(ui, |ui| {
+            let shown = combo.show_list(ui, |ui| {
                 for channel in std::iter::once(None).chain((0..n_channels).map(Some)) {
                     ui.selectable_value(&mut self.rig.channel, channel, name(channel));
                 }

@@ -5,6 +5,7 @@ use egui_plot::{Line, Plot, PlotPoints, Points};
 
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::command::Command;
+use crate::look::list::ShowList as _;
 use crate::look::plot::fixed;
 use crate::look::theme::tokens;
 use crate::session::Session;
@@ -58,7 +59,7 @@ impl DevicesSheet {
         let name_of = |id: &str| pens.iter().find(|p| p.id == id).map_or(id.to_owned(), |p| p.name.clone());
         let chosen = self.rig.pen.as_deref().map_or(strings::MOUSE_ONLY.to_owned(), name_of);
         let combo = ComboBox::from_id_salt("pen").width(260.0).truncate().selected_text(chosen);
-        let shown = combo.show_ui(ui, |ui| {
+        let shown = combo.show_list(ui, |ui| {
             ui.selectable_value(&mut self.rig.pen, None, strings::MOUSE_ONLY);
             for pen in pens {
                 let label = ui.selectable_value(&mut self.rig.pen, Some(pen.id.clone()), &pen.name);

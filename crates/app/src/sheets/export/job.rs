@@ -5,11 +5,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use shagreen_core::units::Hertz;
-use shagreen_formats::atomic;
 use shagreen_formats::bounded_file::{self, FileKind};
-use shagreen_formats::library::{Provenance, TextureEntry, free_id, id_from_name};
+use shagreen_formats::library::{Provenance, TextureEntry};
 use shagreen_formats::wav::sidecar_path;
-use shagreen_studio::export::{ExportFormat, Rendered, WAV, lost_in_wav};
+use shagreen_studio::export::{ExportFormat, Rendered, WAV, lost_in_wav, paths_in, write_models};
+use shagreen_studio::file::one_line;
 
 use crate::session::authored_sources::AuthoredSources;
 use crate::state::audible_texture::AudibleTexture;
@@ -38,7 +38,7 @@ pub(super) enum Format {
 pub(super) struct Job {
     pub(super) what: What,
     pub(super) format: Format,
-    /// Path of the file; several files go into its folder.
+    /// Path of the file, or of the folder of several files.
     pub(super) path: PathBuf,
 }
 
@@ -46,8 +46,8 @@ pub(super) struct Job {
 pub(super) enum Outcome {
     /// These files were written.
     Saved(Vec<PathBuf>),
-    /// Nothing was written, because this number of files would be replaced.
-    Exists(usize),
+    /// Nothing was written, because these files would be replaced.
+    Exists(Vec<PathBuf>),
     /// Why the export failed.
     Failed(String),
 }
@@ -63,13 +63,13 @@ pub(super) struct Summary {
 
 impl Job {
     /// Writes the files. Existing files are replaced only with `replaces`, and only by files of the same format. Nothing
-    /// is written before all paths are checked and all texture models are computed; signals are rendered and written one
-    /// after the other.
+    /// is written before all paths are checked. Texture models are written all or none; signals are rendered and written
+    /// one after the other.
     pub(super) fn run(&self, replaces: bool) -> Outcome {
         let paths = self.paths();
-        match self.n_replaced(&paths) {
+        match self.replaced(&paths) {
             Err(reason) => return Outcome::Failed(reason),
-            Ok(n) if n > 0 && !replaces => return Outcome::Exists(n),
+            Ok(existing) if !existing.is_empty() && !replaces => return Outcome::Exists(existing),
             Ok(_) => {}
         }
         match self.write(&paths) {
@@ -121,23 +121,22 @@ impl Job {
         }
     }
 
-    /// Paths of the files. All authored textures get files of their own names in the folder of the path.
+    /// Paths of the files. All authored textures get files of their own names in the folder.
     fn paths(&self) -> Vec<PathBuf> {
         let What::All(sources) = &self.what else { return vec![self.path.clone()] };
-        let folder = if self.path.is_dir() { Some(&*self.path) } else { self.path.parent() };
         let ending = match &self.format {
             Format::Wav(_) => WAV.ending,
             Format::Model(format) => format.ending(),
         };
-        paths_in(folder.unwrap_or(Path::new("")), sources.names(), ending)
+        paths_in(&self.path, sources.names(), ending)
     }
 
-    /// Number of files that exist already.
+    /// Files that exist already.
     ///
     /// # Errors
     /// Names a file that must not be replaced, because it is of another kind or cannot be read.
-    fn n_replaced(&self, paths: &[PathBuf]) -> Result<usize, String> {
-        let mut n = 0;
+    fn replaced(&self, paths: &[PathBuf]) -> Result<Vec<PathBuf>, String> {
+        let mut existing = Vec::new();
         for path in paths {
             let refused = |path: &Path| strings::not_replaced(&path.display().to_string());
             if matches!(self.format, Format::Wav(_)) && !SignalFile::may_lie_beside(path) {
@@ -146,7 +145,7 @@ impl Job {
             if path.symlink_metadata().is_err() {
                 continue;
             }
-            n += 1;
+            existing.push(path.clone());
             let bytes = bounded_file::read(path, FileKind::Recording)
                 .map_err(|error| import::cannot_be_checked(&error.to_string()))?;
             let is_like = match &self.format {
@@ -157,7 +156,7 @@ impl Job {
                 return Err(refused(path));
             }
         }
-        Ok(n)
+        Ok(existing)
     }
 
     fn write(&self, paths: &[PathBuf]) -> Result<(), String> {
@@ -168,14 +167,8 @@ impl Job {
                 }
             }
             Format::Model(format) => {
-                let bytes = |entry: &TextureEntry| {
-                    let bytes = format.bytes(entry, CREATED_BY);
-                    bytes.map_err(|error| strings::of_texture(&entry.name, &format!("{error:#}")))
-                };
-                let contents: Vec<Vec<u8>> = self.entries()?.iter().map(bytes).collect::<Result<_, _>>()?;
-                for (bytes, path) in contents.iter().zip(paths) {
-                    atomic::write(path, bytes).map_err(|error| error.to_string())?;
-                }
+                let written = write_models(&self.entries()?, paths, *format, CREATED_BY, None);
+                written.map_err(|error| one_line(&error))?;
             }
         }
         Ok(())
@@ -196,16 +189,6 @@ impl Job {
     }
 }
 
-/// Paths of files with these names in a folder. No two are the same.
-fn paths_in<S: AsRef<str>>(folder: &Path, names: impl IntoIterator<Item = S>, ending: &str) -> Vec<PathBuf> {
-    let mut ids: Vec<String> = Vec::new();
-    for name in names {
-        let id = free_id(&id_from_name(name.as_ref()), |id| ids.iter().any(|other| other == id));
-        ids.push(id);
-    }
-    ids.iter().map(|id| folder.join(id).with_extension(ending)).collect()
-}
-
 /// Adds the texts that are not in the list yet.
 fn add(list: &mut Vec<String>, texts: impl IntoIterator<Item = String>) {
     for text in texts {
@@ -217,18 +200,11 @@ fn add(list: &mut Vec<String>, texts: impl IntoIterator<Item = String>) {
 
 #[cfg(test)]
 mod tests {
-    use super::{AudibleTexture, Format, Job, Outcome, What, paths_in};
+    use super::{AudibleTexture, Format, Job, Outcome, What};
     use shagreen_formats::starter::starter_library;
     use shagreen_studio::export::FORMATS;
     use std::path::Path;
     use std::sync::Arc;
-
-    #[test]
-    fn names_of_files_never_clash() {
-        let paths = paths_in(Path::new("/a"), ["Oak", "oak", "Oak 2", "…"], "xml");
-        let expected = ["/a/oak.xml", "/a/oak-2.xml", "/a/oak-2-2.xml", "/a/texture.xml"];
-        assert_eq!(paths, expected.map(Path::new));
-    }
 
     #[test]
     fn a_file_is_replaced_by_its_like_only_and_only_when_that_was_said() {
@@ -248,7 +224,7 @@ mod tests {
                 path: path.to_owned(),
             };
             assert!(matches!(job(&path).run(false), Outcome::Saved(paths) if paths == [path.clone()]));
-            assert!(matches!(job(&path).run(false), Outcome::Exists(1)));
+            assert!(matches!(job(&path).run(false), Outcome::Exists(paths) if paths == [path.clone()]));
             assert!(matches!(job(&path).run(true), Outcome::Saved(_)));
             assert_eq!(job(&path).summary().unwrap().lost, format.lost(&library.textures[0]));
             std::fs::write(&path, "my notes").unwrap();

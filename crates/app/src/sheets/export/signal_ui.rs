@@ -5,6 +5,7 @@ use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::wav_encoding::{Level, SampleType};
 use shagreen_studio::render::SEAM_SECS;
 
+use crate::look::list::ShowList as _;
 use crate::state::signal_file::{SignalFile, SignalOptions};
 use crate::strings::signal as strings;
 
@@ -22,7 +23,7 @@ pub(super) fn options_ui(ui: &mut Ui, signal: &SignalFile, options: &mut SignalO
         if has_stroke {
             ComboBox::from_id_salt("motion")
                 .selected_text(strings::motion(options.follows_stroke))
-                .show_ui(ui, |ui| {
+                .show_list(ui, |ui| {
                     for follows in [false, true] {
                         ui.selectable_value(&mut options.follows_stroke, follows, strings::motion(follows));
                     }
@@ -49,7 +50,7 @@ pub(super) fn options_ui(ui: &mut Ui, signal: &SignalFile, options: &mut SignalO
         let lowest_hz = signal.model_rate.0;
         ComboBox::from_id_salt("rate")
             .selected_text(strings::rate(options.rate_hz))
-            .show_ui(ui, |ui| {
+            .show_list(ui, |ui| {
                 for rate_hz in RATES_HZ.into_iter().filter(|rate_hz| f64::from(*rate_hz) >= lowest_hz) {
                     ui.selectable_value(&mut options.rate_hz, rate_hz, strings::rate(rate_hz));
                 }
@@ -60,7 +61,7 @@ pub(super) fn options_ui(ui: &mut Ui, signal: &SignalFile, options: &mut SignalO
         let samples = &mut options.encoding.samples;
         ComboBox::from_id_salt("samples")
             .selected_text(strings::samples(*samples))
-            .show_ui(ui, |ui| {
+            .show_list(ui, |ui| {
                 for each in SampleType::ALL {
                     ui.selectable_value(samples, each, strings::samples(each));
                 }
@@ -68,7 +69,7 @@ pub(super) fn options_ui(ui: &mut Ui, signal: &SignalFile, options: &mut SignalO
             .response
             .accessible_name(strings::SAMPLES);
     });
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.label(strings::LEVEL);
         let can_keep = options.encoding.samples == SampleType::Float32;
         if !can_keep {

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
+use shagreen_core::recording::fit::highest_order;
 use shagreen_core::space::LabelSource;
+use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, name_from_file};
 use shagreen_formats::recording::Question;
 
@@ -22,6 +24,12 @@ pub struct Batch {
     worker: Worker,
     are_one: bool,
     last_id: u64,
+    /// Photos that were read, until they are taken.
+    photos: Vec<Source>,
+    /// Whether nothing but photos was read.
+    has_only_photos: bool,
+    /// Sample rate of the space in Hz if textures get estimated positions in it.
+    space_rate_hz: Option<f64>,
 }
 
 /// File of a batch.
@@ -80,6 +88,9 @@ impl Batch {
             worker: Worker::new(ctx.clone()),
             are_one: false,
             last_id: 0,
+            photos: Vec::new(),
+            has_only_photos: false,
+            space_rate_hz: None,
         }
     }
 
@@ -129,6 +140,8 @@ impl Batch {
                     if let Some(draft) = draft {
                         draft.segment = 0;
                         draft.fit = outcome.map_or_else(FitState::Failed, FitState::Done);
+                        let id = draft.id;
+                        self.lower_rate(id);
                     }
                 }
                 Message::Done => {}
@@ -141,11 +154,57 @@ impl Batch {
         self.last_id
     }
 
+    /// Photos that were read since the last call.
+    pub(super) fn take_photos(&mut self) -> Vec<Source> {
+        std::mem::take(&mut self.photos)
+    }
+
+    /// Whether all files were photos, and all are read.
+    pub(super) fn has_only_photos(&self) -> bool {
+        self.has_only_photos && !self.is_working()
+    }
+
+    /// Lets textures get estimated positions in a space with this sample rate in Hz, or not (`None`). Only a texture at
+    /// this rate or below has a position, so an automatic rate goes no higher. Textures with an automatic rate are fitted
+    /// again if that changes.
+    pub(super) fn place_in(&mut self, space_rate_hz: Option<f64>) {
+        if self.space_rate_hz == space_rate_hz {
+            return;
+        }
+        self.space_rate_hz = space_rate_hz;
+        for index in 0..self.drafts.len() {
+            if self.drafts[index].is_lowered {
+                self.fit(index);
+            } else {
+                self.lower_rate(self.drafts[index].id);
+            }
+        }
+    }
+
+    /// Whether textures get estimated positions.
+    pub(super) fn are_placed(&self) -> bool {
+        self.space_rate_hz.is_some()
+    }
+
+    /// Fits a texture again at the rate of the space if its automatic rate is too high for a position.
+    fn lower_rate(&mut self, draft: u64) {
+        let Some(rate_hz) = self.space_rate_hz else { return };
+        let is_meant = |other: &Draft| other.id == draft && other.exceeds(rate_hz);
+        if let Some(index) = self.drafts.iter().position(is_meant) {
+            self.fit_at(index, Some(rate_hz));
+        }
+    }
+
     fn take_loaded(&mut self, loaded: Loaded) {
         let id = self.next_id();
         let Loaded { name, content } = loaded;
         let mut is_recording = false;
         let content = match content {
+            LoadedContent::Photo(source) => {
+                self.photos.push(source);
+                self.has_only_photos = self.files.is_empty();
+                return;
+            }
             LoadedContent::Failed(reason) => Content::Failed(reason),
             LoadedContent::Helper { note } => Content::Helper(note),
             LoadedContent::Textures { entries, warnings } => {
@@ -157,6 +216,7 @@ impl Batch {
             }
         };
         self.files.push(File { id, name: name.clone(), content });
+        self.has_only_photos = false;
         if !is_recording {
             return;
         }
@@ -171,23 +231,36 @@ impl Batch {
 
     fn take_read(&mut self, id: u64, generation: u64, outcome: ReadOutcome) {
         let Some(Content::Recording(state)) = self.file_mut(id).map(|file| &mut file.content) else { return };
-        if state.generation == generation {
-            state.outcome = outcome;
-            state.is_reading = false;
+        if state.generation != generation {
+            return;
+        }
+        if state.take(outcome) {
+            self.read(id);
+        } else {
             self.fit_with(id);
         }
     }
 
+    /// Reads a recording again with its present answers.
+    fn read(&mut self, id: u64) {
+        let Some(Content::Recording(state)) = self.file_mut(id).map(|file| &mut file.content) else { return };
+        let (input, map) = (state.input.clone(), Box::new(state.map.clone()));
+        let request = Request::Read { file: id, generation: state.generation, input, map };
+        self.worker.ask(request);
+    }
+
     /// Answers a question about a recording; with `for_all`, also about all others with the same question.
     pub fn answer(&mut self, id: u64, question: &Question, answer: &str, for_all: bool) {
+        let mut changed = Vec::new();
         for file in &mut self.files {
-            let file_id = file.id;
             let Content::Recording(state) = &mut file.content else { continue };
-            let is_meant = file_id == id || for_all && state.asks(question);
+            let is_meant = file.id == id || for_all && state.asks(question);
             if is_meant && state.answer(question, answer) {
-                let (input, map) = (state.input.clone(), Box::new(state.map.clone()));
-                self.worker.ask(Request::Read { file: file_id, generation: state.generation, input, map });
+                changed.push(file.id);
             }
+        }
+        for id in changed {
+            self.read(id);
         }
     }
 
@@ -261,6 +334,11 @@ impl Batch {
     }
 
     fn fit(&mut self, index: usize) {
+        self.fit_at(index, None);
+    }
+
+    /// Fits a texture with its options; `lowered_hz` takes the place of an automatic rate.
+    fn fit_at(&mut self, index: usize, lowered_hz: Option<f64>) {
         let recordings: Vec<Arc<Drawn>> =
             self.drawn_of(&self.drafts[index]).map(|(_, d)| Arc::clone(d)).collect();
         let draft = &mut self.drafts[index];
@@ -270,7 +348,13 @@ impl Batch {
             return;
         }
         draft.fit = FitState::Working;
-        let (draft, generation, options) = (draft.id, draft.generation, draft.options.clone());
+        draft.is_lowered = lowered_hz.is_some();
+        let mut options = draft.options.clone();
+        if let Some(rate) = lowered_hz.map(Hertz) {
+            options.rate = options.rate.or(Some(rate));
+            options.order = options.order.filter(|order| *order <= highest_order(rate));
+        }
+        let (draft, generation) = (draft.id, draft.generation);
         self.worker.ask(Request::Fit { draft, generation, recordings, options });
     }
 
@@ -293,6 +377,7 @@ impl Batch {
             Content::Helper(_) => State::Helper,
             Content::Textures { .. } => State::Ready,
             Content::Recording(state) if state.is_reading => State::Working,
+            Content::Recording(state) if !state.wrong.is_empty() => State::Question,
             Content::Recording(state) => {
                 match (&state.outcome.recording, self.draft_of(file.id).map(|d| &d.fit)) {
                     (None, _) => State::Question,

@@ -29,6 +29,8 @@ pub struct Draft {
     pub(super) generation: u64,
     /// State of the last fit.
     pub fit: FitState,
+    /// Whether that fit has the rate of the space instead of a higher automatic one.
+    pub(super) is_lowered: bool,
     /// Index of the segment whose spectrum is shown.
     pub segment: usize,
 }
@@ -56,8 +58,14 @@ impl Draft {
             files,
             generation: 0,
             fit: FitState::Nothing,
+            is_lowered: false,
             segment: 0,
         }
+    }
+
+    /// Whether an automatic rate is above this one, in Hz.
+    pub(super) fn exceeds(&self, rate_hz: f64) -> bool {
+        self.options.rate.is_none() && self.fitted().is_some_and(|fitted| fitted.report.rate.0 > rate_hz)
     }
 
     /// Result of the fit, once it is done.

@@ -48,7 +48,7 @@ pub(super) fn draft_ui(
         }
         ui.add_space(GAP);
         let Some(draft) = batch.draft_of(id) else { return };
-        fit_ui(ui, draft, around);
+        fit_ui(ui, draft, around, batch.are_placed());
         for file in batch.files().iter().filter(|file| draft.files.contains(&file.id)) {
             let Content::Recording(state) = &file.content else { continue };
             list_ui(ui, strings::WARNINGS, &state.outcome.warnings, tokens(ui.ctx()).warning);
@@ -68,12 +68,16 @@ fn ask_ui(ui: &mut Ui, batch: &mut Batch, id: u64, for_all: &mut bool) {
     let t = tokens(ui.ctx());
     let Some(state) = recording(batch, id) else { return };
     let given = questions_ui(ui, state);
-    let has_questions = !(state.outcome.questions.is_empty() && state.answered.is_empty());
+    let has_questions =
+        !(state.outcome.questions.is_empty() && state.answered.is_empty() && state.wrong.is_empty());
     let asked: Vec<_> = state.outcome.questions.clone();
     match &state.outcome.recording {
         Some(Err(reason)) => {
             ui.add_space(GAP);
             ui.add(Label::new(RichText::new(sentence(reason)).color(t.error)).wrap());
+            if !has_questions {
+                ui.add(Label::new(RichText::new(strings::ACCEPTED).small().color(t.text_weak)).wrap());
+            }
         }
         None => {
             ui.add_space(GAP);

@@ -4,6 +4,7 @@ use egui::{ComboBox, Grid, Label, RichText, TextEdit, Ui};
 use shagreen_core::recording::fit::{FitReport, MODEL_RATES_HZ};
 use shagreen_core::texture::Interpolation;
 
+use crate::look::list::ShowList as _;
 use crate::look::theme::{GAP, tokens};
 use crate::sheets::import::draft::{Draft, FitState};
 use crate::sheets::import::import_context::ImportContext;
@@ -42,7 +43,7 @@ pub(super) fn adjust_ui(ui: &mut Ui, draft: &mut Draft) -> bool {
         };
         let current = &mut draft.options.interpolation;
         let combo = ComboBox::from_id_salt("interpolation").width(width).selected_text(words(*current));
-        let combo = combo.show_ui(ui, |ui| {
+        let combo = combo.show_list(ui, |ui| {
             for way in [Interpolation::Barycentric, Interpolation::RadialBasis] {
                 ui.selectable_value(current, way, words(way));
             }
@@ -57,7 +58,7 @@ fn rate_ui(ui: &mut Ui, draft: &mut Draft, width: f32) {
     let words = |rate_hz: Option<f64>| rate_hz.map_or(strings::AUTOMATIC.to_owned(), strings::rate);
     let mut rate_hz = draft.rate_hz();
     let combo = ComboBox::from_id_salt("rate").width(width).selected_text(words(rate_hz));
-    let combo = combo.show_ui(ui, |ui| {
+    let combo = combo.show_list(ui, |ui| {
         for choice in std::iter::once(None).chain(MODEL_RATES_HZ.map(Some)) {
             ui.selectable_value(&mut rate_hz, choice, words(choice));
         }
@@ -71,7 +72,7 @@ fn order_ui(ui: &mut Ui, draft: &mut Draft, width: f32) {
     let orders = draft.orders();
     let order = &mut draft.options.order;
     let combo = ComboBox::from_id_salt("order").width(width).selected_text(words(*order));
-    let combo = combo.show_ui(ui, |ui| {
+    let combo = combo.show_list(ui, |ui| {
         for choice in std::iter::once(None).chain(orders.map(Some)) {
             ui.selectable_value(order, choice, words(choice));
         }
@@ -79,8 +80,8 @@ fn order_ui(ui: &mut Ui, draft: &mut Draft, width: f32) {
     combo.response.accessible_name(strings::ORDER).on_hover_text(strings::ORDER_HELP);
 }
 
-/// Draws the results of the fit, or why there are none.
-pub(super) fn fit_ui(ui: &mut Ui, draft: &Draft, around: ImportContext<'_>) {
+/// Draws the results of the fit, or why there are none. `is_placed` tells that textures get estimated positions.
+pub(super) fn fit_ui(ui: &mut Ui, draft: &Draft, around: ImportContext<'_>, is_placed: bool) {
     let t = tokens(ui.ctx());
     match &draft.fit {
         FitState::Nothing => {
@@ -99,7 +100,16 @@ pub(super) fn fit_ui(ui: &mut Ui, draft: &Draft, around: ImportContext<'_>) {
                 let text = strings::other_rate(rate_hz, space_rate_hz);
                 ui.add(Label::new(RichText::new(text).small().color(t.warning)).wrap().selectable(false));
             }
-            let text = RichText::new(strings::JOINS_UNPLACED).small().color(t.text_weak);
+            let joins = if !is_placed {
+                strings::JOINS_UNPLACED.to_owned()
+            } else if rate_hz > space_rate_hz {
+                strings::no_place_at(space_rate_hz)
+            } else if draft.is_lowered {
+                strings::placed_at(rate_hz)
+            } else {
+                strings::JOINS_PLACED.to_owned()
+            };
+            let text = RichText::new(joins).small().color(t.text_weak);
             ui.add(Label::new(text).wrap().selectable(false));
             list_ui(ui, strings::NOTES, &fitted.report.notes, t.text_weak);
         }

@@ -5,6 +5,7 @@ use shagreen_core::texture::plane::Plane;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Provenance, TextureEntry};
 
+use crate::look::list::ShowList as _;
 use crate::look::plot::title;
 use crate::look::spectrum_plot::spectrum_plot;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
@@ -33,7 +34,7 @@ pub(super) fn model_ui(
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if entries.len() > 1 {
             let combo = ComboBox::from_id_salt("texture").width(260.0).selected_text(&entry.name);
-            let combo = combo.show_ui(ui, |ui| {
+            let combo = combo.show_list(ui, |ui| {
                 for (index, other) in entries.iter().enumerate() {
                     ui.selectable_value(&mut shown.texture, index, &other.name);
                 }

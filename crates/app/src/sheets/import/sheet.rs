@@ -1,8 +1,11 @@
 //! Import sheet: files on the left, the selected one on the right, accept and cancel at the bottom.
 
-use egui::{Align, Button, Context, Key, Label, Layout, RichText, TextEdit, Ui, UiBuilder, vec2};
+use std::path::PathBuf;
+
+use egui::{Align, Button, Checkbox, Context, Key, Label, Layout, RichText, TextEdit, Ui, UiBuilder, vec2};
 
 use shagreen_studio::open::OTHER_ENDINGS;
+use shagreen_studio::place_estimate::can_estimate;
 
 use crate::browse::{Asked, Browse};
 use crate::command::Command;
@@ -10,13 +13,13 @@ use crate::command::prompt::PromptCommand;
 use crate::look::motion::busy_ui;
 use crate::look::sheet_frame::{is_left, sheet};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
+use crate::sheets::folders_ui::folders_ui;
 use crate::sheets::import::batch::{Batch, Content, State};
 use crate::sheets::import::draft_ui::draft_ui;
 use crate::sheets::import::files_ui::files_ui;
 use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::model_ui::model_ui;
 use crate::sheets::import::questions_ui::sentence;
-use crate::sheets::is_photo;
 use crate::state::edit::Edit;
 use crate::state::source::{Source, paths_in};
 use crate::strings::import as strings;
@@ -33,9 +36,13 @@ pub struct ImportSheet {
     paths: String,
     for_all: bool,
     is_fresh: bool,
-    /// Whether recordings get estimated positions.
+    /// Whether recordings get estimated positions, if the library permits that.
     are_placed: bool,
-    photos: Vec<Source>,
+    /// Whether the library permits estimates; determined once.
+    can_place: Option<bool>,
+    /// Id of the latest file whose failure was shown.
+    last_seen: u64,
+    folders: Vec<PathBuf>,
     browse: Browse,
 }
 
@@ -49,9 +56,16 @@ impl ImportSheet {
             for_all: true,
             is_fresh: true,
             are_placed: false,
-            photos: Vec::new(),
+            can_place: None,
+            last_seen: 0,
+            folders: Vec::new(),
             browse: Browse::default(),
         }
+    }
+
+    /// Offers recently used folders.
+    pub fn offer(&mut self, folders: Vec<PathBuf>) {
+        self.folders = folders;
     }
 
     /// Lets recordings get estimated positions, unless the user turns this off.
@@ -59,19 +73,11 @@ impl ImportSheet {
         self.are_placed = true;
     }
 
-    /// Reads more files in the background.
+    /// Reads more files in the background. Photos become a prompt.
     pub fn load(&mut self, sources: Vec<Source>) {
         if !sources.is_empty() {
             self.batch.load(sources);
         }
-    }
-
-    /// Reads files that the user typed or chose. Photos become a prompt, as when they are dropped.
-    fn take(&mut self, sources: Vec<Source>) {
-        let (photos, others): (Vec<_>, Vec<_>) =
-            sources.into_iter().partition(|source| is_photo(source.path()));
-        self.photos.extend(photos);
-        self.load(others);
     }
 
     /// Files, and the textures made from them.
@@ -81,7 +87,11 @@ impl ImportSheet {
 
     /// Draws the sheet; returns the requested commands.
     pub fn show(&mut self, ctx: &Context, around: ImportContext<'_>) -> Vec<Command> {
+        let can_place = *self.can_place.get_or_insert_with(|| can_estimate(around.library));
+        self.are_placed &= can_place;
+        self.batch.place_in(self.are_placed.then_some(around.space_rate_hz));
         self.batch.collect();
+        self.show_failure();
         let is_there = |id: &u64| self.batch.files().iter().any(|file| file.id == *id);
         self.selected = self.selected.filter(is_there).or(self.batch.files().first().map(|file| file.id));
         let size = ctx.content_rect().size() - vec2(2.0 * AROUND, 2.0 * AROUND);
@@ -92,21 +102,31 @@ impl ImportSheet {
             self.content_ui(ui, around)
         });
         let mut commands = shown.inner;
-        if !self.photos.is_empty() {
-            // Recordings that are being read stay; the photos find their places behind the sheet.
-            if self.batch.files().is_empty() {
-                commands.push(Command::CloseSheet);
-            }
-            commands.push(Command::Prompt(PromptCommand::Look(std::mem::take(&mut self.photos))));
+        let photos = self.batch.take_photos();
+        if !photos.is_empty() {
+            commands.push(Command::Prompt(PromptCommand::Look(photos)));
         }
-        if !shown.any_popup_open && is_left(ctx) {
+        // The photos find their places behind the sheet. It stays for other files.
+        if self.batch.has_only_photos() {
+            commands.push(Command::CloseSheet);
+        }
+        if is_left(ctx) {
             commands.push(Command::CloseSheet);
         }
         commands
     }
 
+    /// Selects a file that was read in vain, so that its reason is visible.
+    fn show_failure(&mut self) {
+        let new = self.batch.files().iter().filter(|file| file.id > self.last_seen);
+        let failed = new.clone().find(|file| self.batch.state(file) == State::Failed).map(|file| file.id);
+        self.last_seen = new.map(|file| file.id).max().unwrap_or(self.last_seen);
+        self.selected = failed.or(self.selected);
+    }
+
     fn content_ui(&mut self, ui: &mut Ui, around: ImportContext<'_>) -> Vec<Command> {
         self.head_ui(ui);
+        self.browse.missing_ui(ui);
         ui.add_space(GAP);
         let area = ui.available_rect_before_wrap();
         let foot = 34.0;
@@ -139,22 +159,24 @@ impl ImportSheet {
                     ..Asked::default()
                 };
                 let chosen = self.browse.show(ui, strings::PATHS, &asked);
-                self.take(chosen.into_iter().map(Source::Path).collect());
+                self.load(chosen.into_iter().map(Source::Path).collect());
+                if let Some(folder) = folders_ui(ui, &self.folders) {
+                    self.paths = folder.join("").display().to_string();
+                    self.is_fresh = true;
+                }
+                let is_empty = self.batch.files().is_empty() && !self.batch.is_working();
                 // Displayed as one line, but pasted lines stay separate.
                 let field = TextEdit::singleline(&mut self.paths)
                     .hint_text(strings::PATHS_HINT)
                     .desired_width(f32::INFINITY);
                 let field = ui.add(field).accessible_name(strings::PATHS).on_hover_text(strings::DROP_KINDS);
-                if std::mem::take(&mut self.is_fresh)
-                    && self.batch.files().is_empty()
-                    && !self.batch.is_working()
-                {
+                if std::mem::take(&mut self.is_fresh) && (!self.paths.is_empty() || is_empty) {
                     field.request_focus();
                 }
                 let is_entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
                 if is_wanted || is_entered {
                     let paths = std::mem::take(&mut self.paths);
-                    self.take(paths_in(&paths));
+                    self.load(paths_in(&paths));
                 }
                 if is_entered {
                     field.request_focus();
@@ -188,6 +210,7 @@ impl ImportSheet {
             }
             Content::Failed(reason) => {
                 ui.add(Label::new(RichText::new(sentence(reason)).color(t.error)).wrap());
+                ui.add(Label::new(RichText::new(strings::ACCEPTED).small().color(t.text_weak)).wrap());
             }
         }
     }
@@ -220,7 +243,8 @@ impl ImportSheet {
         }));
         let accept = if n_ready > 0 { accept.fill(t.accent) } else { accept };
         if ui.add_enabled(n_ready > 0, accept).clicked() {
-            let entries = self.batch.entries(around.library, around.space_rate_hz, self.are_placed);
+            let are_placed = self.batch.are_placed();
+            let entries = self.batch.entries(around.library, around.space_rate_hz, are_placed);
             commands.push(Command::Edit(Edit::AddTextures(entries)));
             commands.push(Command::CloseSheet);
         }
@@ -228,7 +252,10 @@ impl ImportSheet {
             commands.push(Command::CloseSheet);
         }
         if self.batch.has_recordings() {
-            ui.checkbox(&mut self.are_placed, strings::PLACE_THEM).on_hover_text(strings::PLACE_THEM_HELP);
+            let can_place = self.can_place != Some(false);
+            let tick = Checkbox::new(&mut self.are_placed, strings::PLACE_THEM);
+            let tick = ui.add_enabled(can_place, tick);
+            tick.on_hover_text(strings::PLACE_THEM_HELP).on_disabled_hover_text(strings::CANNOT_PLACE);
         }
         let is_left_out = |state: State| matches!(state, State::Failed);
         let waits = |state: State, file: u64| {

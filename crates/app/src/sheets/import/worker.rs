@@ -8,13 +8,15 @@ use shagreen_core::recording::Recording;
 use shagreen_core::recording::fit::{FitOptions, Fitted, fit};
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::TextureEntry;
+use shagreen_formats::picture::photo_pixels;
 use shagreen_formats::recording::directional::StrokeFolder;
 use shagreen_formats::recording::{ColumnMap, Question, RecordingFileError, read_recording};
 use shagreen_formats::wav::sidecar_names;
-use shagreen_studio::import::{MAP_ENDING, format_of_ending};
+use shagreen_studio::import::{MAP_ENDING, format_of_ending, is_importable};
 
 use crate::sheets::import::directional_folder::{FolderTexture, strokes_in, textures};
 use crate::sheets::import::trace::Trace;
+use crate::sheets::is_photo;
 use crate::state::source::{Source, sidecar_of, without_folders};
 use crate::strings::import as strings;
 
@@ -62,6 +64,8 @@ pub(super) enum LoadedContent {
     Textures { entries: Vec<TextureEntry>, warnings: Vec<String> },
     /// File that supports the other files.
     Helper { note: &'static str },
+    /// Photo, which becomes a prompt.
+    Photo(Source),
     /// File that cannot be used, and why.
     Failed(String),
 }
@@ -74,6 +78,17 @@ pub(super) struct RecordingInput {
     sidecar: Option<Arc<[u8]>>,
 }
 
+impl RecordingInput {
+    pub(super) fn new(name: String, bytes: Vec<u8>, sidecar: Option<Arc<[u8]>>) -> Self {
+        Self { name, bytes: bytes.into(), sidecar }
+    }
+
+    /// Whether the file is a WAV file, which has channels instead of columns.
+    pub(super) fn is_wav(&self) -> bool {
+        self.bytes.starts_with(b"RIFF")
+    }
+}
+
 /// Result of reading a recording.
 #[derive(Clone, Debug)]
 pub struct ReadOutcome {
@@ -83,6 +98,8 @@ pub struct ReadOutcome {
     pub warnings: Vec<String>,
     /// Recording, or why there is none; `None` while an open question prevents reading it.
     pub recording: Option<Result<Arc<Drawn>, String>>,
+    /// Why the column map does not fit the file, if it does not.
+    pub misfit: Option<String>,
 }
 
 /// Recording, and its reduction for drawing.
@@ -196,7 +213,7 @@ impl Request {
     }
 }
 
-/// Reads files, column maps first, since they describe the columns of the other files.
+/// Reads files: photos first, then column maps, since they describe the columns of the other files.
 fn load(sources: Vec<Source>, outbox: &Sender<Message>) -> bool {
     let mut files = Vec::new();
     for source in sources {
@@ -216,8 +233,18 @@ fn load(sources: Vec<Source>, outbox: &Sender<Message>) -> bool {
             return false;
         }
     }
+    let (photos, files): (Vec<Source>, Vec<Source>) =
+        without_folders(files).into_iter().partition(|source| is_photo(source.path()));
+    for source in photos {
+        let name = source.name();
+        let checked = source.bytes().and_then(|bytes| photo_pixels(&bytes).map_err(|e| e.to_string()));
+        let content = checked.map_or_else(LoadedContent::Failed, |_| LoadedContent::Photo(source));
+        if outbox.send(Message::Loaded(Loaded { name, content })).is_err() {
+            return false;
+        }
+    }
     let (maps, others): (Vec<Source>, Vec<Source>) =
-        without_folders(files).into_iter().partition(|source| source.ending() == MAP_ENDING);
+        files.into_iter().partition(|source| source.ending() == MAP_ENDING);
     let mut map = ColumnMap::default();
     for source in maps {
         let content = match source.bytes().and_then(|bytes| read_map(&bytes)) {
@@ -260,10 +287,12 @@ fn load_one(source: &Source, bytes: Vec<u8>, all: &[Source], map: &ColumnMap) ->
             Err(reason) => LoadedContent::Failed(reason),
         };
     }
-    let sidecar = sidecar_of(source, all);
-    let input = RecordingInput { name: source.name(), bytes: bytes.into(), sidecar };
+    let input = RecordingInput::new(source.name(), bytes, sidecar_of(source, all));
     let outcome = read(&input, map);
-    LoadedContent::Recording { input, map: Box::new(map.clone()), outcome }
+    match &outcome.recording {
+        Some(Err(reason)) if !is_importable(&ending) => LoadedContent::Failed(strings::no_kind(reason)),
+        _ => LoadedContent::Recording { input, map: Box::new(map.clone()), outcome },
+    }
 }
 
 /// Whether a JSON file is the sidecar of a WAV file of the same name that is imported too.
@@ -286,17 +315,18 @@ fn read(input: &RecordingInput, map: &ColumnMap) -> ReadOutcome {
                     Err(sentences(error.faults.iter()))
                 }
             };
-            ReadOutcome { questions: file.questions, warnings, recording: Some(recording) }
+            ReadOutcome { questions: file.questions, warnings, recording: Some(recording), misfit: None }
         }
         Err(RecordingFileError::NeedsAnswers(needs)) => {
             // If the file has other faults, an answer does not help.
             let recording = (!needs.faults.is_empty()).then(|| Err(sentences(needs.faults.iter())));
-            ReadOutcome { questions: needs.questions, warnings: needs.warnings, recording }
+            ReadOutcome { questions: needs.questions, warnings: needs.warnings, recording, misfit: None }
         }
         Err(error) => ReadOutcome {
             questions: Vec::new(),
             warnings: Vec::new(),
             recording: Some(Err(error.to_string())),
+            misfit: if let RecordingFileError::Map { problem } = error { Some(problem) } else { None },
         },
     }
 }

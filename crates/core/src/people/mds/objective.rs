@@ -1,14 +1,15 @@
 //! Squared stress of a configuration and its gradient.
 //!
-//! Disparities `d̂` are a projection onto the cone of ordered sequences, so the gradient is computed with them held
-//! fixed. The gradient of `f = Σ (d - d̂)² / Σ d²` at point `i` is `2 / Σ d² · Σ_j ((d - d̂) / d - f) (x_i - x_j)`.
+//! Disparities `d̂` are a projection onto a convex cone: that of the ordered sequences, or that of the rising linear
+//! functions of the dissimilarities without negative values. The gradient is therefore computed with them held fixed.
+//! The gradient of `f = Σ (d - d̂)² / Σ d²` at point `i` is `2 / Σ d² · Σ_j ((d - d̂) / d - f) (x_i - x_j)`.
 
 use crate::maths::isotonic::{Pool, Pools};
 use crate::maths::sums::sum_of;
 use crate::people::dissimilarities::Dissimilarities;
 use crate::people::mds::descent::Evaluation;
 use crate::people::mds::sorter::Sorter;
-use crate::people::mds::{ShepardPair, Ties};
+use crate::people::mds::{ShepardPair, Transform};
 
 /// Number of pairs processed together, so that intermediate values stay in the cache.
 const N_TOGETHER: usize = 256;
@@ -17,10 +18,12 @@ const N_TOGETHER: usize = 256;
 #[derive(Clone)]
 pub(super) struct Objective<'a> {
     dissimilarities: &'a Dissimilarities,
-    ties: Ties,
+    transform: Transform,
     pairs: Vec<[u16; 2]>,
     /// Start and end of each run of tied dissimilarities; runs of one pair are omitted.
     tied: Vec<(usize, usize)>,
+    /// Dissimilarity of each pair minus the lowest one; only the linear transformation needs them.
+    values: Vec<f64>,
     distances: Vec<f64>,
     pools: Pools,
     sorter: Sorter,
@@ -28,11 +31,18 @@ pub(super) struct Objective<'a> {
 
 impl<'a> Objective<'a> {
     /// Objective of these dissimilarities, for at most [`crate::people::mds::MAX_ITEMS`] items.
-    pub(super) fn new(dissimilarities: &'a Dissimilarities, ties: Ties) -> Self {
+    pub(super) fn new(dissimilarities: &'a Dissimilarities, transform: Transform) -> Self {
         let mut sorter = Sorter::default();
         let (pairs, tied) = in_order(dissimilarities, &mut sorter);
         let distances = vec![0.0; pairs.len()];
-        Self { dissimilarities, ties, pairs, tied, distances, pools: Pools::default(), sorter }
+        let values = match transform {
+            Transform::PrimaryTies | Transform::SecondaryTies => Vec::new(),
+            Transform::Interval => {
+                let lowest = pairs.first().map_or(0.0, |pair| value_of(dissimilarities, *pair));
+                pairs.iter().map(|pair| value_of(dissimilarities, *pair) - lowest).collect()
+            }
+        };
+        Self { dissimilarities, transform, pairs, tied, values, distances, pools: Pools::default(), sorter }
     }
 
     /// Squared stress at `points`, which hold `dims` coordinates each; writes its gradient into `gradient`.
@@ -102,17 +112,21 @@ impl<'a> Objective<'a> {
         size
     }
 
-    /// Computes the isotonic regression of the distances in the order of dissimilarity.
+    /// Computes the regression of the distances in the order of dissimilarity.
     fn regress(&mut self) {
         self.pools.clear();
+        if self.transform == Transform::Interval {
+            self.regress_linearly();
+            return;
+        }
         let mut from = 0;
         for &(tied, free) in &self.tied {
-            match self.ties {
+            match self.transform {
                 // Sorted by distance, tied pairs do not constrain the regression.
-                Ties::Primary => {
+                Transform::PrimaryTies => {
                     self.sorter.sort(&mut self.distances[tied..free], &mut self.pairs[tied..free]);
                 }
-                Ties::Secondary => {
+                Transform::SecondaryTies | Transform::Interval => {
                     let run = &self.distances[tied..free];
                     self.pools.extend(&self.distances[from..tied]);
                     self.pools.push(Pool { sum: run.iter().sum(), weight: run.len() as f64 });
@@ -121,6 +135,29 @@ impl<'a> Objective<'a> {
             }
         }
         self.pools.extend(&self.distances[from..]);
+    }
+
+    /// Computes the linear regression of the distances on the dissimilarities, with a slope and a lowest disparity of 0
+    /// or more.
+    fn regress_linearly(&mut self) {
+        let n = self.values.len() as f64;
+        let value_mean = sum_of(&self.values, |value| value) / n;
+        let mean = sum_of(&self.distances, |distance| distance) / n;
+        let spread = sum_of(&self.values, |value| (value - value_mean) * (value - value_mean));
+        let product = |from: f64, center: f64| -> f64 {
+            self.values.iter().zip(&self.distances).map(|(value, d)| (value - from) * (d - center)).sum()
+        };
+        let mut slope = if spread > 0.0 { (product(value_mean, mean) / spread).max(0.0) } else { 0.0 };
+        let mut lowest = mean - slope * value_mean;
+        if lowest < 0.0 {
+            // The projection lies on the edge of the cone: a line through the origin.
+            lowest = 0.0;
+            slope = product(0.0, 0.0) / sum_of(&self.values, |value| value * value);
+        }
+        // The values rise, so only equal ones are pooled.
+        for value in &self.values {
+            self.pools.push(Pool { sum: lowest + slope * value, weight: 1.0 });
+        }
     }
 
     /// Adds `(d - d̂) / d (x_i - x_j)` to the gradient at `i` for every `j` and returns the sum of `(d - d̂)²`.

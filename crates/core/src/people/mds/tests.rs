@@ -5,7 +5,7 @@ use proptest::prelude::{ProptestConfig, prop_assert, proptest};
 
 use super::objective::Objective;
 use super::{
-    ByDimension, MAX_DIMS, Mds, MdsError, MdsOptions, Ties, nonmetric, nonmetric_from, shepard, stress,
+    ByDimension, MAX_DIMS, Mds, MdsError, MdsOptions, Transform, nonmetric, nonmetric_from, shepard, stress,
 };
 use crate::maths::procrustes::procrustes;
 use crate::maths::rng::lcg_noise;
@@ -40,7 +40,7 @@ fn noisy(n: usize, seed: u64, levels: f64) -> Dissimilarities {
 
 #[test]
 fn the_gradient_is_the_slope() {
-    for ties in [Ties::Primary, Ties::Secondary] {
+    for ties in [Transform::PrimaryTies, Transform::SecondaryTies, Transform::Interval] {
         for (dims, levels) in [(1, 2.0), (2, 2.0), (3, 1e6), (10, 5.0)] {
             let items = noisy(14, 5, levels);
             let mut objective = Objective::new(&items, ties);
@@ -64,13 +64,17 @@ fn the_gradient_is_the_slope() {
 
 #[test]
 fn what_comes_out_is_stationary_and_no_worse_than_smacof() {
-    for (n, levels, ties) in [(12, 2.0, Ties::Primary), (30, 1e9, Ties::Primary), (20, 3.0, Ties::Secondary)]
-    {
+    for (n, levels, ties) in [
+        (12, 2.0, Transform::PrimaryTies),
+        (30, 1e9, Transform::PrimaryTies),
+        (20, 3.0, Transform::SecondaryTies),
+        (20, 3.0, Transform::Interval),
+    ] {
         let items = noisy(n, 100 + n as u64, levels);
         let condensed: Vec<f64> = items.pairs().map(|(_, _, value)| value).collect();
         for seed in 0..5 {
             let start = lcg_noise(2 * n, 500 + seed);
-            let options = MdsOptions { ties, ..MdsOptions::usual(1) };
+            let options = MdsOptions { transform: ties, ..MdsOptions::usual(1) };
             let found = nonmetric_from(&items, &rows(&start, 2), &options).unwrap();
             assert!(found.converged, "{found:?}");
             // A thousand further SMACOF steps gain nothing.
@@ -89,6 +93,23 @@ fn points_are_found_again_from_the_order_of_their_distances() {
     assert!(found.converged && found.stress < 1e-4, "{}", found.stress);
     // The rank order of 780 distances almost determines the points.
     assert!(procrustes(&found.points, &truth).unwrap().r_squared > 0.9995);
+}
+
+#[test]
+fn interval_scaling_finds_points_from_a_linear_function_of_their_distances() {
+    let truth = rows(&lcg_noise(24, 8), 2);
+    let items = of_points(&truth, |d, _| Some(0.5 + 2.0 * d));
+    let options = MdsOptions { transform: Transform::Interval, ..MdsOptions::usual(1) };
+    let found = nonmetric(&items, 2, &options).unwrap();
+    assert!(found.stress < 1e-6, "{}", found.stress);
+    assert!(procrustes(&found.points, &truth).unwrap().r_squared > 1.0 - 1e-9);
+    // Disparities are a linear function of the dissimilarities.
+    let pairs = shepard(&items, &found.points, Transform::Interval).unwrap();
+    let slopes = pairs
+        .windows(2)
+        .map(|two| (two[1].disparity - two[0].disparity) / (two[1].dissimilarity - two[0].dissimilarity));
+    let slopes: Vec<f64> = slopes.collect();
+    assert!(slopes.iter().all(|slope| (slope / slopes[0] - 1.0).abs() < 1e-6), "{slopes:?}");
 }
 
 #[test]
@@ -118,7 +139,7 @@ fn points_are_centered_along_their_axes_and_as_large_as_the_dissimilarities() {
             assert!(sum(&|p| p[axis] * p[axis]) < sum(&|p| p[other] * p[other]));
         }
     }
-    let pairs = shepard(&items, &found.points, Ties::Primary).unwrap();
+    let pairs = shepard(&items, &found.points, Transform::PrimaryTies).unwrap();
     let squares = |of: fn(&super::ShepardPair) -> f64| pairs.iter().map(|p| of(p) * of(p)).sum::<f64>();
     assert!((squares(|p| p.distance) / squares(|p| p.dissimilarity) - 1.0).abs() < 1e-12);
     assert_eq!(found.stress_by_start.len(), 21);
@@ -133,13 +154,13 @@ proptest! {
     fn disparities_are_a_projection(seed in 0_u64..1000, levels in 1_u32..6, primary: bool) {
         let items = noisy(12, seed, f64::from(levels));
         let points = rows(&lcg_noise(24, seed + 5000), 2);
-        let ties = if primary { Ties::Primary } else { Ties::Secondary };
+        let ties = if primary { Transform::PrimaryTies } else { Transform::SecondaryTies };
         let pairs = shepard(&items, &points, ties).unwrap();
         prop_assert!(pairs.is_sorted_by(|a, b| a.dissimilarity <= b.dissimilarity && a.disparity <= b.disparity));
         for two in pairs.windows(2).filter(|two| two[0].dissimilarity == two[1].dissimilarity) {
             let primary = two[0].distance <= two[1].distance;
             let secondary = two[0].disparity == two[1].disparity;
-            let in_order = if ties == Ties::Primary { primary } else { secondary };
+            let in_order = if ties == Transform::PrimaryTies { primary } else { secondary };
             prop_assert!(in_order);
         }
         for pair in &pairs {
@@ -155,12 +176,12 @@ proptest! {
 
 #[test]
 fn stress_is_what_the_result_says() {
-    for ties in [Ties::Primary, Ties::Secondary] {
+    for ties in [Transform::PrimaryTies, Transform::SecondaryTies, Transform::Interval] {
         let items = noisy(15, 6, 3.0);
-        let found = nonmetric(&items, 2, &MdsOptions { ties, ..MdsOptions::usual(1) }).unwrap();
+        let found = nonmetric(&items, 2, &MdsOptions { transform: ties, ..MdsOptions::usual(1) }).unwrap();
         // The points were rotated and scaled after their stress was computed.
         assert!((stress(&items, &found.points, ties).unwrap() - found.stress).abs() < 1e-12);
-        let options = MdsOptions { ties, ..MdsOptions::usual(1) };
+        let options = MdsOptions { transform: ties, ..MdsOptions::usual(1) };
         let scaling = ByDimension::new(&items, &options).unwrap();
         let mut by_dims = scaling.best(1..=4, None, &|| true).unwrap();
         // Continued later, it finds the same.
@@ -179,7 +200,7 @@ fn pairs_that_were_never_compared_have_no_say() {
     let found = nonmetric(&items, 2, &MdsOptions::usual(1)).unwrap();
     assert!(found.stress < 1e-3, "{}", found.stress);
     assert!(procrustes(&found.points, &truth).unwrap().r_squared > 0.999);
-    assert_eq!(shepard(&items, &truth, Ties::Primary).unwrap().len(), 520);
+    assert_eq!(shepard(&items, &truth, Transform::PrimaryTies).unwrap().len(), 520);
 }
 
 #[test]

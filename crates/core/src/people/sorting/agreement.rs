@@ -14,6 +14,8 @@ pub struct SorterFit {
     pub correlation: Option<f64>,
     /// Median of all participants' correlations if this one is outlying (see [`FAR_BELOW`]), else `None`.
     pub outlying_from: Option<f64>,
+    /// Lowest correlation that is not outlying, the same for all participants; `None` with too few participants.
+    pub limit: Option<f64>,
 }
 
 /// Minimum number of pairs for a meaningful correlation.
@@ -42,8 +44,14 @@ pub(super) fn agreement(names: &[&str], tallies: &[Tally]) -> Vec<SorterFit> {
     let deviation = NORMAL * median(known.iter().map(|c| (c - middle).abs()).collect());
     let lowest = middle - NEAR.max(FAR_BELOW * deviation);
     let one = |(name, correlation): (&&str, Option<f64>)| {
-        let far = known.len() >= MIN_PARTICIPANTS && correlation.is_some_and(|c| c < lowest);
-        SorterFit { participant: (*name).to_owned(), correlation, outlying_from: far.then_some(middle) }
+        let limit = (known.len() >= MIN_PARTICIPANTS).then_some(lowest);
+        let far = correlation.zip(limit).is_some_and(|(c, lowest)| c < lowest);
+        SorterFit {
+            participant: (*name).to_owned(),
+            correlation,
+            outlying_from: far.then_some(middle),
+            limit,
+        }
     };
     names.iter().zip(correlations).map(one).collect()
 }

@@ -55,6 +55,8 @@ pub enum Finding {
         correlation: f64,
         /// Median of all participants' correlations.
         median: f64,
+        /// Lowest correlation that is not outlying.
+        limit: f64,
     },
 }
 
@@ -110,9 +112,9 @@ impl fmt::Display for Finding {
                     named.collect::<Vec<_>>().join(", ")
                 )
             }
-            Self::Outlying { participant, correlation, median } => write!(
+            Self::Outlying { participant, correlation, median, limit } => write!(
                 f,
-                "participant {participant:?} correlates with the others by {correlation:.2}; the median participant correlates by {median:.2}"
+                "the sorts of participant {participant:?} correlate with those of the others by {correlation:.2}, below the limit of {limit:.2} for these sorts; the median participant correlates by {median:.2} (not excluded)"
             ),
         }
     }
@@ -154,7 +156,8 @@ pub(super) fn finding_of_pairs(textures: &[String], scores: &[Vec<Option<f64>>])
 pub(super) fn findings_of_agreements(agreements: &[SorterFit]) -> Vec<Finding> {
     let finding = |a: &SorterFit| {
         let (participant, correlation) = (a.participant.clone(), a.correlation?);
-        a.outlying_from.map(|median| Finding::Outlying { participant, correlation, median })
+        let limit = a.limit?;
+        a.outlying_from.map(|median| Finding::Outlying { participant, correlation, median, limit })
     };
     agreements.iter().filter_map(finding).collect()
 }

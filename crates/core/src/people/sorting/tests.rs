@@ -128,7 +128,11 @@ fn who_sorts_by_chance_is_outlying() {
         .collect();
     assert_eq!(outlying, ["4"]);
     let sentences: Vec<String> = found.findings.iter().map(ToString::to_string).collect();
-    assert!(sentences.iter().any(|s| s.starts_with("outlying participant: participant \"4\" correlates")));
+    let said =
+        sentences.iter().find(|s| s.starts_with("outlying participant: the sorts of participant \"4\""));
+    let limit = found.agreements[0].limit.unwrap();
+    let of_the_sorts = format!("below the limit of {limit:.2} for these sorts");
+    assert!(said.is_some_and(|s| s.contains(&of_the_sorts)), "{sentences:?}");
 }
 
 #[test]

@@ -44,11 +44,13 @@ pub fn d_prime(counts: Counts, correction: Correction) -> Option<f64> {
     Some(normal.inverse_cdf(share(hits, n_different)) - normal.inverse_cdf(share(false_alarms, n_same)))
 }
 
-/// Returns the proportion of correct answers to "same or different?", 0.5 to 1, of an observer without bias whose
-/// discriminability is `d_prime`, 0 or more.
+/// Returns the proportion of correct answers to the yes-no question "different?", 0.5 to 1, of an observer without bias
+/// whose discriminability is `d_prime`, 0 or more. It is 69 % at a d′ of 1.
 ///
-/// Without bias, F = 1 - H, so that `d′ = z(H) - z(F)` gives z(H) = d′/2. With as many identical as different pairs, the
-/// proportion is Φ(d′/2), where Φ is the cumulative distribution function of the standard normal distribution.
+/// It is not that of a two-alternative forced choice, in which the observer feels both signals and names one of them:
+/// Φ(d′/√2), 76 % at a d′ of 1. Without bias, F = 1 - H, so that `d′ = z(H) - z(F)` gives z(H) = d′/2. With as many identical
+/// as different pairs, the proportion is Φ(d′/2), where Φ is the cumulative distribution function of the standard normal
+/// distribution.
 pub fn proportion_correct(d_prime: f64) -> f64 {
     Normal::standard().cdf(0.5 * d_prime)
 }

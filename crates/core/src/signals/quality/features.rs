@@ -19,7 +19,7 @@ const ENVELOPE_HZ: f64 = 20.0;
 /// Largest lag between two envelopes, in s.
 const SHIFT_SECS: f64 = 0.05;
 /// Floor of the mean power in (m/s²)², below which nothing is perceptible; it keeps the logarithm of silence finite.
-const LEAST_POWER: f64 = 1e-10;
+pub(super) const LEAST_POWER: f64 = 1e-10;
 
 /// Features of a single signal.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

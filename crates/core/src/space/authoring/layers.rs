@@ -1,4 +1,4 @@
-//! Interpolation of tap transients, friction and rotation between a few textures.
+//! Interpolation of tap transients and friction between a few textures.
 //!
 //! Tap transients and friction are averaged as logarithms. Touch discriminates ratios of friction, frequency and
 //! damping, not differences, and the frequency of a tap transient depends on the square root of a stiffness that spans
@@ -48,32 +48,6 @@ pub(super) fn mean_stick_slip(parts: impl Iterator<Item = (Option<StickSlip>, f6
     })
 }
 
-/// Mean rotation in rad of textures with these rotations and weights; exactly zero if none is rotated.
-///
-/// A lay has an axis, but no sign: 170° and -10° are the same. Rotations are therefore averaged as vectors of twice the
-/// angle (K. Mardia and P. Jupp, "Directional statistics", 2000). Of the two rotations with the mean axis, the result is
-/// the one nearer to that of the texture with the largest weight, because a height map has a sign. Negative weights
-/// count as zero: they would turn the axis away from a texture.
-pub(super) fn mean_turn_rad(parts: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let (mut x, mut y) = (0.0, 0.0);
-    let (mut heaviest, mut heaviest_turn_rad) = (0.0, 0.0);
-    let mut is_turned = false;
-    for (turn_rad, weight) in parts {
-        let weight = f64::max(weight, 0.0);
-        let (sin, cos) = f64::sin_cos(2.0 * turn_rad);
-        (x, y) = (x + weight * cos, y + weight * sin);
-        is_turned |= turn_rad != 0.0;
-        if weight > heaviest {
-            (heaviest, heaviest_turn_rad) = (weight, turn_rad);
-        }
-    }
-    if !is_turned {
-        return 0.0;
-    }
-    let axis_rad = 0.5 * f64::atan2(y, x);
-    if f64::cos(axis_rad - heaviest_turn_rad) < 0.0 { axis_rad + std::f64::consts::PI } else { axis_rad }
-}
-
 fn mean<const N: usize>(parts: impl Iterator<Item = ([f64; N], f64)>) -> Option<[f64; N]> {
     let (mut sum, mut total) = ([0.0; N], 0.0);
     for (values, weight) in parts {
@@ -87,7 +61,7 @@ fn mean<const N: usize>(parts: impl Iterator<Item = ([f64; N], f64)>) -> Option<
 
 #[cfg(test)]
 mod tests {
-    use super::{mean_stick_slip, mean_turn_rad};
+    use super::mean_stick_slip;
     use crate::texture::stick_slip::StickSlip;
     use crate::units::MetersPerSecond;
 
@@ -124,31 +98,5 @@ mod tests {
         check_stick_slip(&[(Some(RUBBER), 1.25), (Some(VINYL), -0.25)], Some((2.25, 0.04)));
         let fainter = mean_stick_slip([(Some(RUBBER), 0.01), (None, 0.99)].into_iter()).unwrap();
         assert!(fainter.static_ratio > 1.0 && fainter.static_ratio < 1.01, "{fainter:?}");
-    }
-
-    fn check_turn(parts_degrees: &[(f64, f64)], expected_degrees: f64) {
-        let parts = parts_degrees.iter().map(|(turn, weight)| (turn.to_radians(), *weight));
-        let mean_degrees = mean_turn_rad(parts).to_degrees();
-        let apart = (mean_degrees - expected_degrees).rem_euclid(360.0);
-        assert!(apart.min(360.0 - apart) < 1e-9, "{mean_degrees} instead of {expected_degrees}");
-    }
-
-    #[test]
-    fn rotations_are_averaged_as_axes() {
-        check_turn(&[(20.0, 0.5), (40.0, 0.5)], 30.0);
-        // 170° is the axis of -10°.
-        check_turn(&[(20.0, 0.6), (170.0, 0.4)], mean_of_axes(20.0, 0.6, -10.0, 0.4));
-        check_turn(&[(150.0, 1.0)], 150.0);
-        check_turn(&[(150.0, 0.9), (-30.0, 0.1)], 150.0);
-        check_turn(&[(30.0, 1.25), (80.0, -0.25)], 30.0);
-        assert_eq!(mean_turn_rad([(0.0, 0.3), (0.0, 0.7)].into_iter()), 0.0);
-        assert_eq!(mean_turn_rad(std::iter::empty()), 0.0);
-    }
-
-    /// Mean axis of two that are less than 45° apart on either side of zero, in degrees.
-    fn mean_of_axes(a: f64, weight_a: f64, b: f64, weight_b: f64) -> f64 {
-        let tangent =
-            |f: fn(f64) -> f64| weight_a * f(2.0 * a.to_radians()) + weight_b * f(2.0 * b.to_radians());
-        0.5 * (tangent(f64::sin) / tangent(f64::cos)).atan().to_degrees()
     }
 }

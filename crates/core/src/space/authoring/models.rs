@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use crate::space::authoring::LEAST_WEIGHT;
-use crate::space::authoring::layers::{mean_friction, mean_stick_slip, mean_tap, mean_turn_rad};
+use crate::space::authoring::layers::{mean_friction, mean_stick_slip, mean_tap};
 use crate::space::field::{Field, Site};
+use crate::space::mean_axes::MeanAxes;
 use crate::space::sampled::{Layers, SampledGrain, Sampling};
 use crate::space::{Space, SpacePoint};
-use crate::texture::height_map::HeightMap;
+use crate::texture::height_map::{CommonTile, HeightMap, TilePart};
 use crate::texture::plane::Plane;
 use crate::texture::relief::Relief;
 use crate::texture::stick_slip::StickSlip;
@@ -21,6 +22,8 @@ pub struct Models {
     /// One entry per texture with a position, in the order of the space's sites.
     sites: Vec<Sampled>,
     field: Field,
+    /// Height maps of the sites; `None` if no texture has one.
+    height_maps: Option<CommonTile>,
 }
 
 #[derive(Clone, Debug)]
@@ -41,13 +44,15 @@ struct Sampled {
 
 impl Sampled {
     fn at(&self, at: SpacePoint) -> Site<'_> {
-        let along = self.along.as_ref();
-        Site { at: at.xy(), grain: &self.grain, along, friction: self.friction, tap: self.tap }
+        let (along, turn_rad) = (self.along.as_ref(), self.turn_rad);
+        Site { at: at.xy(), grain: &self.grain, along, turn_rad, friction: self.friction, tap: self.tap }
     }
 
-    /// Grain along the lay, which is that across it for an isotropic texture.
-    fn grain_along(&self) -> &SampledGrain {
-        self.along.as_ref().unwrap_or(&self.grain)
+    /// Grains that the texture contributes with this weight across (0) or along (1) the lay of `axes`, and their weights.
+    fn grains(&self, weight: f64, axes: &MeanAxes, direction: usize) -> [(&SampledGrain, f64); 2] {
+        let share = if self.along.is_some() { axes.shares_along(self.turn_rad)[direction] } else { 0.0 };
+        let along = self.along.as_ref().unwrap_or(&self.grain);
+        [(&self.grain, (1.0 - share) * weight), (along, share * weight)]
     }
 
     /// Whether the texture depends on the direction of the stroke.
@@ -124,18 +129,28 @@ impl Models {
         let at_places: Vec<Site<'_>> =
             sites.iter().zip(space.sites()).map(|(site, (_, at))| site.at(*at)).collect();
         let field = Field::new(&at_places).ok_or(ModelsError::Degenerate)?;
-        Ok(Self { sampling, sites, field })
+        let height_maps: Vec<_> = sites.iter().map(|site| site.height_map.clone()).collect();
+        Ok(Self { sampling, sites, field, height_maps: CommonTile::new(&height_maps) })
     }
 
-    /// Texture of the field at a point, moved towards a pinned texture by the weight in `lock`; with grain, friction
-    /// and tap only.
+    /// Prepares the height maps of all textures, which takes some time, so that their sums take little. Without this, the
+    /// first sum with a height map prepares it.
+    pub fn prepare_height_maps(&self) {
+        if let Some(height_maps) = &self.height_maps {
+            height_maps.prepare();
+        }
+    }
+
+    /// Texture of the field at a point, moved towards a pinned texture by the weight in `lock`; with friction, tap and the
+    /// grains across and along the lay of `axes` only.
     pub(super) fn texture(
         &self,
         at: SpacePoint,
+        axes: &MeanAxes,
         lock: Option<(usize, f64)>,
     ) -> Result<TextureModel, TextureModelError> {
         let own = |(texture, share): (usize, f64)| Some((self.site(texture)?.at(at), share));
-        self.field.texture(&self.sampling, at.xy(), lock.and_then(own))
+        self.field.texture(&self.sampling, at.xy(), axes, lock.and_then(own))
     }
 
     /// Weighted sum of the textures' reliefs; `None` if no texture has one.
@@ -148,17 +163,18 @@ impl Models {
         Relief::blended(&parts).map(Arc::new)
     }
 
-    /// Weighted sum of the textures' height maps, each in its own axes; `None` if no texture has one.
-    pub(super) fn height_map(&self, parents: &[(usize, f64)]) -> Option<Arc<HeightMap>> {
-        if self.sites.iter().all(|site| site.height_map.is_none()) {
-            return None;
-        }
+    /// Weighted sum of the textures' height maps in `axes`; `None` if no texture has one.
+    pub(super) fn height_map(&self, parents: &[(usize, f64)], axes: &MeanAxes) -> Option<Arc<HeightMap>> {
+        let height_maps = self.height_maps.as_ref()?;
         if let Some(alone) = self.alone(parents) {
             return alone.height_map.clone();
         }
-        let parts: Vec<_> =
-            self.contributing(parents).map(|(site, weight)| (site.height_map.as_deref(), weight)).collect();
-        HeightMap::blended(&parts).map(Arc::new)
+        let part = |(texture, weight): &(usize, f64)| {
+            let map = self.sites.iter().position(|site| site.texture == *texture)?;
+            Some(TilePart { map, weight: *weight, turn_rad: self.sites[map].turn_rad - axes.turn_rad })
+        };
+        let parts: Vec<TilePart> = parents.iter().filter_map(part).collect();
+        height_maps.blended(&parts).map(Arc::new)
     }
 
     /// Mean parameters of stick-slip friction; `None` if no texture has it.
@@ -174,16 +190,16 @@ impl Models {
         }
     }
 
-    /// Mean rotation, in rad, of the textures that depend on the direction of the stroke; zero if there are none.
-    pub(super) fn turn_rad(&self, parents: &[(usize, f64)]) -> f64 {
+    /// Mean axes of the textures that depend on the direction of the stroke; those of the pad if there are none.
+    pub(super) fn axes(&self, parents: &[(usize, f64)]) -> MeanAxes {
         if self.sites.iter().all(|site| site.turn_rad == 0.0) {
-            return 0.0;
+            return MeanAxes::at(0.0);
         }
         if let Some(alone) = self.alone(parents) {
-            return alone.turn_rad;
+            return MeanAxes::at(alone.turn_rad);
         }
         let parts = self.contributing(parents).filter(|(site, _)| site.has_axes());
-        mean_turn_rad(parts.map(|(site, weight)| (site.turn_rad, weight)))
+        MeanAxes::mean(parts.map(|(site, weight)| (site.turn_rad, weight)))
     }
 
     /// Weight of each texture in the field at a point.
@@ -196,17 +212,23 @@ impl Models {
         if inside == to { to } else { SpacePoint::from_xy(self.field.supported(inside.xy(), to.xy())) }
     }
 
-    /// Weighted mean of textures: line spectral frequencies and ln level at every contact, across the lay and, if one
-    /// of the textures is directional, along it; with friction and tap, without other layers.
-    pub(super) fn mean(&self, parents: &[(usize, f64)]) -> Result<TextureModel, TextureModelError> {
+    /// Weighted mean of textures: line spectral frequencies and ln level at every contact, across the lay of `axes` and, if
+    /// one of the textures is directional, along it; with friction and tap, without other layers.
+    pub(super) fn mean(
+        &self,
+        parents: &[(usize, f64)],
+        axes: &MeanAxes,
+    ) -> Result<TextureModel, TextureModelError> {
         let known: Vec<(&Sampled, f64)> = self.weighted(parents).collect();
-        let across = self.mean_nodes(known.iter().map(|(site, weight)| (&site.grain, *weight)));
+        let nodes = |direction: usize| {
+            let grains = known.iter().flat_map(|(site, weight)| site.grains(*weight, axes, direction));
+            self.mean_nodes(grains.filter(|(_, weight)| *weight != 0.0))
+        };
         let is_directional = self.contributing(parents).any(|(site, _)| site.along.is_some());
-        let along = is_directional
-            .then(|| self.mean_nodes(known.iter().map(|(site, weight)| (site.grain_along(), *weight))));
+        let along = is_directional.then(|| nodes(1));
         let friction = mean_friction(known.iter().map(|(site, weight)| (site.friction, *weight)));
         let tap = mean_tap(known.iter().map(|(site, weight)| (site.tap, *weight)));
-        self.sampling.texture(across, along, friction, tap)
+        self.sampling.texture(nodes(0), along, friction, tap)
     }
 
     /// Nodes with the weighted mean of line spectral frequencies and ln level.

@@ -5,7 +5,7 @@ use crate::dsp::lsf::lsf_from_ar;
 use crate::maths::rng::lcg_noise;
 use crate::space::fidelity::{
     Channels, N_CHANNELS, N_CONDITIONS, Profile, chance_db, conditions, error_db, level_error_db,
-    mixture_level_mps2,
+    mixture_level_mps2, shape_error_db,
 };
 use crate::texture::blend::Mode;
 use crate::texture::plane::Plane;
@@ -111,6 +111,17 @@ fn the_level_of_one_texture_is_that_of_its_model() {
     assert_eq!(mixture_level_mps2(&[], Mode::Shared, contact), 0.0);
 }
 
+/// Differences of +3 and -1 dB in equal number: their mean is 1 dB, and 2 dB remain around it.
+#[test]
+fn the_shape_error_is_the_spread_of_the_differences() {
+    let flat = Profile { channels_db: vec![-20.0; 4], levels_db: vec![0.0; 2] };
+    let uneven = Profile { channels_db: vec![-17.0, -21.0, -17.0, -21.0], levels_db: vec![0.0; 2] };
+    assert!((shape_error_db(&uneven, &flat) - 2.0).abs() < 1e-12);
+    assert!((error_db(&uneven, &flat).powi(2) - 5.0).abs() < 1e-12, "the squares of 2 dB and 1 dB add up");
+    let louder = Profile { channels_db: vec![-9.5; 4], levels_db: vec![10.5; 2] };
+    assert_eq!(shape_error_db(&louder, &flat), 0.0);
+}
+
 /// White noise of known level: every channel has its density, within the random error.
 #[test]
 fn signals_have_the_profile_of_their_model() {
@@ -150,6 +161,9 @@ proptest! {
         prop_assert!(error_db(&a, &a) == 0.0 && (error_db(&a, &c) - error_db(&c, &a)).abs() < 1e-12);
         prop_assert!((error_db(&a, &b) - gain_db.abs()).abs() < 1e-9);
         prop_assert!((level_error_db(&a, &c) - gain_db.abs()).abs() < 1e-9);
+        // Nothing remains of a pure level difference.
+        prop_assert!(shape_error_db(&a, &b) < 1e-9);
+        prop_assert!(shape_error_db(&a, &c) <= error_db(&a, &c) + 1e-12);
         prop_assert!(error_db(&a, &c) <= error_db(&a, &b) + error_db(&b, &c) + 1e-12);
     }
 }

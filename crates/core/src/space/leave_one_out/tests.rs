@@ -4,7 +4,7 @@ use crate::maths::rng::Random;
 use crate::maths::statistics::mean;
 use crate::space::SpacePoint;
 use crate::space::authoring::{Authoring, Blending, BlendingError, Layers, Models, Weights};
-use crate::space::fidelity::{Channels, Profile, error_db};
+use crate::space::fidelity::{Channels, Profile, error_db, shape_error_db};
 use crate::space::leave_one_out::rest::{Made, Placed, Rests, is_inside};
 use crate::space::leave_one_out::{
     LeaveOneOut, LeaveOneOutError, Method, Plan, SignalPlan, leave_one_out, measure, rest_of,
@@ -69,9 +69,29 @@ fn an_oracle_is_right_and_its_opposite_wrong() {
     let measured = measure(&textures, methods, None, &mut author, &mut |_, _| true).unwrap();
     assert_eq!((measured.textures.len(), measured.on_hull.as_slice()), (8, &[0, 1, 2, 3][..]));
     let [right, wrong] = measured.methods.as_slice() else { unreachable!() };
-    assert_eq!((right.error_db_mean, right.level_error_db_mean), (0.0, 0.0));
+    assert_eq!((right.error_db_mean, right.level_error_db_mean, right.shape_error_db_mean), (0.0, 0.0, 0.0));
     assert_eq!((right.rank1, right.top5, right.nrs_mean), (1.0, 1.0, Some(1.0)));
     assert_eq!((wrong.rank1, wrong.top5), (0.0, 0.0));
+}
+
+/// Textures that differ only by their level: the copy of the nearest texture has a level error and no shape error.
+#[test]
+fn a_pure_level_difference_has_no_shape_error() {
+    let at = [[0.0, 0.0], [100.0, 0.0], [0.0, 100.0], [100.0, 100.0], [30.0, 50.0]].map(|[r, h]| point(r, h));
+    // One hardness for all spectra; the level follows from the roughness alone.
+    let world: Vec<_> =
+        at.into_iter().map(|at| (truth(point(at.rough_smooth, 50.0), 0.0), Some(at))).collect();
+    let measured = run(&world, &Plan { blendings: Vec::new(), signals: None }).unwrap();
+    let nearest = measured.methods[0].clone();
+    assert!(nearest.error_db_mean > 1.0 && nearest.level_error_db_mean > 1.0, "{nearest:?}");
+    assert!(nearest.shape_error_db_mean < 1e-9, "{nearest:?}");
+    let profile = |index: usize| {
+        let plane = Plane::new(&world[index].0);
+        Channels::of_models().profile(&[(&plane, 1.0)], Mode::Shared)
+    };
+    let of = &measured.textures[0];
+    let want = shape_error_db(&profile(of.nearest), &profile(of.texture));
+    assert!((of.outcomes[0].shape_error_db - want).abs() < 1e-12);
 }
 
 /// The predictions do not depend on the removed texture, however much it changes.

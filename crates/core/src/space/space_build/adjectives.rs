@@ -78,7 +78,7 @@ pub(super) fn fit_adjectives(
     let highest = values.fold(0.0, f64::max);
     if highest <= SHORT_SCALE {
         findings.push(format!(
-            "no rating is above {highest}, but the scale is assumed to be 0 to 100; if the ratings use another scale, state it (--scale LOW,HIGH) or convert them"
+            "no rating is above {highest}, but the scale is assumed to be 0 to 100; if the ratings use another scale, state it (in the window: scale beside Ratings; on the command line: --scale LOW,HIGH)"
         ));
     }
     let row_of: Vec<Option<usize>> =

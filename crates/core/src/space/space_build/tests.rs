@@ -1,3 +1,5 @@
+mod degenerate;
+
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -6,7 +8,7 @@ use super::{
     build_space,
 };
 use crate::maths::statistics::correlation;
-use crate::people::mds::{Mds, MdsOptions, Ties};
+use crate::people::mds::{Mds, Transform};
 use crate::people::panel::{PanelConfig, simulated_ratings, simulated_sorts};
 use crate::people::ratings::{AdjectivePair, Rating, RelevanceVote};
 use crate::people::sorting::{Grouped, Sort};
@@ -217,15 +219,20 @@ fn few_textures_give_a_space_without_predictions() {
 
 #[test]
 fn a_collapsed_space_is_reported() {
-    let said = |points: Vec<Vec<f64>>| {
+    let said_by = |transform: Transform, points: Vec<Vec<f64>>| {
         let mds = Mds { points, stress: 0.0, converged: true, n_steps: 9, stress_by_start: vec![0.0] };
-        of_scaling(&mds, 2).join("\n")
+        let mut options = quick();
+        options.mds.transform = transform;
+        of_scaling(&mds, &options).join("\n")
     };
+    let said = |points: Vec<Vec<f64>>| said_by(Transform::PrimaryTies, points);
     let scattered = |n: usize| labels().into_iter().take(n).collect::<Vec<_>>();
     let mut collapsed: Vec<Vec<f64>> =
         scattered(9).into_iter().map(|point| point.into_iter().map(|x| 1e-3 * x).collect()).collect();
     collapsed[8] = vec![160.0, 0.0];
-    assert!(said(collapsed).contains("has collapsed"));
+    assert!(said(collapsed.clone()).contains("use interval scaling or more participants"));
+    let by_interval = said_by(Transform::Interval, collapsed);
+    assert!(by_interval.contains("has collapsed") && !by_interval.contains("interval"), "{by_interval}");
     assert_eq!(said(scattered(9)), "");
     assert!(said(scattered(8)).contains("8 textures are too few for 2 dimensions"));
 }
@@ -276,8 +283,8 @@ fn textures_that_nobody_separates_are_named() {
         let group = sort.placements[0].group.clone();
         sort.placements[1].group = group;
     }
-    let mds = MdsOptions { ties: Ties::Secondary, ..quick().mds };
-    let options = SpaceOptions { mds, placement: Some(PlacedBy::Felt), ..quick() };
+    let transform = Some(Transform::SecondaryTies);
+    let options = SpaceOptions { transform, placement: Some(PlacedBy::Felt), ..quick() };
     let built = build((sorts, ratings), &options).unwrap();
     let findings = built.findings.join("\n");
     assert!(findings.contains("t00 and t01 have nearly the same position"), "{findings}");
@@ -352,8 +359,7 @@ fn positions_vary_between_bootstrap_samples_only_if_participants_disagree() {
             Rating { participant: rating.participant.clone(), ..of_first.unwrap().clone() }
         })
         .collect();
-    let secondary =
-        SpaceOptions { mds: MdsOptions { ties: Ties::Secondary, ..options.mds.clone() }, ..options };
+    let secondary = SpaceOptions { transform: Some(Transform::SecondaryTies), ..options };
     let typical = |sorts: &[Sort], ratings: &[Rating]| {
         let stability = build((sorts.to_vec(), ratings.to_vec()), &secondary).unwrap().stability.unwrap();
         (stability.typical, stability.angle_deviation_degrees)

@@ -1,5 +1,6 @@
 //! Validation summary of a space, as sentences.
 
+use crate::people::mds::{Transform, expected_random_stress};
 use crate::space::LabelSource;
 use crate::space::space_build::{Axis, PlacedBy, SpaceBuild, TRUSTED_NESTED_R};
 use crate::words::counted;
@@ -13,6 +14,9 @@ const OBLIQUE_DEGREES: f64 = 15.0;
 const POOR_ICC: f64 = 0.5;
 /// p-value at or above which a line or a prediction is called not significant.
 const CHANCE: f64 = 0.05;
+
+/// Minimum number of sorters; with fewer, the perceptual space depends mostly on chance.
+pub(super) const MIN_SORTERS: usize = 5;
 
 /// Kruskal's (1964) word for a stress-1 value. He gives words for 0, 0.025, 0.05, 0.1 and 0.2; the boundaries here lie
 /// halfway between these values.
@@ -41,16 +45,7 @@ pub fn validation_summary(build: &SpaceBuild) -> Vec<String> {
             build.source.label(),
             if build.source == LabelSource::SimulatedRaters { "; no person felt the textures" } else { "" }
         ),
-        format!(
-            "Stress of the {}-dimensional perceptual space: {:.3}, {}.",
-            build.options.n_dims,
-            build.perceptual.stress,
-            if build.textures.len() < least_textures(build.options.n_dims) {
-                "not meaningful with so few textures".to_owned()
-            } else {
-                format!("{} by Kruskal's criteria", kruskal_word(build.perceptual.stress))
-            }
-        ),
+        stress(build),
         angle(build),
     ];
     for axis in &build.axes {
@@ -60,6 +55,48 @@ pub fn validation_summary(build: &SpaceBuild) -> Vec<String> {
     said.extend(stability(build));
     said.extend(build.axes.iter().map(|axis| place(axis, build.options.placement.is_none())));
     said
+}
+
+/// Kruskal's word for the stress of a perceptual space; `None` if it does not apply: to a degenerate solution, to
+/// interval scaling, or to a stress that is low because few participants sorted.
+pub fn stress_in_words(build: &SpaceBuild) -> Option<&'static str> {
+    let is_degenerate = build.degenerate.is_some_and(|degenerate| !degenerate.is_replaced);
+    let is_metric = build.options.mds.transform == Transform::Interval;
+    let word = kruskal_word(build.perceptual.stress);
+    let is_by_chance = build.similarity.agreements.len() < MIN_SORTERS && word == kruskal_word(0.0);
+    (!is_degenerate && !is_metric && !is_by_chance).then_some(word)
+}
+
+/// Mean stress that random dissimilarities without ties give for as many textures and dimensions; with ties it is lower.
+/// `None` outside the range of [`expected_random_stress`], and for interval scaling, to which it does not apply.
+pub fn stress_of_random_data(build: &SpaceBuild) -> Option<f64> {
+    match build.options.mds.transform {
+        Transform::PrimaryTies | Transform::SecondaryTies => {
+            expected_random_stress(build.textures.len(), build.options.n_dims)
+        }
+        Transform::Interval => None,
+    }
+}
+
+/// Stress of the perceptual space, and the values to compare it with.
+fn stress(build: &SpaceBuild) -> String {
+    let (n_textures, n_dims) = (build.textures.len(), build.options.n_dims);
+    let is_degenerate = build.degenerate.is_some_and(|degenerate| !degenerate.is_replaced);
+    let meaning = match stress_in_words(build) {
+        _ if n_textures < least_textures(n_dims) => "not meaningful with so few textures".to_owned(),
+        Some(word) => match stress_of_random_data(build) {
+            Some(random) => format!(
+                "{word} by Kruskal's criteria (random dissimilarities without ties give about {random:.2}; with ties, less)"
+            ),
+            None => format!("{word} by Kruskal's criteria"),
+        },
+        None if is_degenerate => "not meaningful, because the solution is degenerate".to_owned(),
+        None if build.options.mds.transform == Transform::Interval => {
+            "from interval scaling, to which Kruskal's criteria do not apply".to_owned()
+        }
+        None => "not meaningful with so few participants".to_owned(),
+    };
+    format!("Stress of the {n_dims}-dimensional perceptual space: {:.3}, {meaning}.", build.perceptual.stress)
 }
 
 /// Kind of positions on an axis, and the reason if the choice was automatic.

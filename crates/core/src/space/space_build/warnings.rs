@@ -2,20 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::people::mds::{Mds, Ties};
-use crate::people::ratings::{RaterFit, RatingTable};
+use crate::people::mds::{Mds, Transform};
+use crate::people::ratings::{OUTLIER_LIMIT, RaterFit, RatingTable};
 use crate::people::sorting::{Finding, Similarity, Sort};
 use crate::space::SpacePoint;
 use crate::space::selection::MIN_TEXTURES;
-use crate::space::space_build::validation::least_textures;
-use crate::space::space_build::{Axis, SpaceData};
+use crate::space::space_build::validation::{MIN_SORTERS, least_textures};
+use crate::space::space_build::{Axis, DegenerateScaling, SpaceData, SpaceOptions};
 use crate::words::counted;
 
 /// Maximum number of findings of one kind that are listed; the others are only counted.
 const N_SAID: usize = 3;
-
-/// Minimum number of sorters; with fewer, the perceptual space depends mostly on chance.
-const MIN_SORTERS: usize = 5;
 
 /// Angle in degrees from 0 or 180 below which two directions count as parallel.
 const ONE_LINE_DEGREES: f64 = 20.0;
@@ -32,7 +29,7 @@ pub(super) fn of_sorting(
     similarity: &Similarity,
     table: &RatingTable,
     unsorted: &[&str],
-    ties: Ties,
+    transform: Transform,
 ) -> Vec<String> {
     let mut said = sort_findings(&similarity.findings);
     said.extend(participation(data, table));
@@ -41,9 +38,9 @@ pub(super) fn of_sorting(
     }
     let n_sorters = similarity.agreements.len();
     if n_sorters < MIN_SORTERS {
-        let advice = match ties {
-            Ties::Primary => "; with so few participants, use secondary ties",
-            Ties::Secondary => "",
+        let advice = match transform {
+            Transform::PrimaryTies => "; with so few participants, use secondary ties",
+            Transform::SecondaryTies | Transform::Interval => "",
         };
         said.push(format!(
             "only {} sorted the textures: most dissimilarities are tied, so the perceptual space depends on chance even if its stress is low; ten participants are usual{advice}",
@@ -60,11 +57,20 @@ pub(super) fn of_sorting(
 
 /// Warnings about raters and missing ratings.
 pub(super) fn of_ratings(raters: &[(String, RaterFit)], table: &RatingTable) -> Vec<String> {
-    let outlying: Vec<&str> =
-        raters.iter().filter(|(_, fit)| fit.outlying).map(|(name, _)| name.as_str()).collect();
+    let outlying: Vec<String> = raters
+        .iter()
+        .filter(|(_, fit)| fit.outlying)
+        .map(|(name, fit)| match fit.correlation {
+            Some(correlation) => format!("{name} ({correlation:.2})"),
+            None => name.clone(),
+        })
+        .collect();
     let mut said = Vec::new();
     if !outlying.is_empty() {
-        said.push(format!("outlying raters (not excluded): {}", outlying.join(", ")));
+        said.push(format!(
+            "ratings: outlying participants, whose correlation with the mean of the others is below {OUTLIER_LIMIT} (not excluded): {}",
+            outlying.join(", ")
+        ));
     }
     if table.n_missing() > 0 {
         let missing = counted(table.n_missing(), "rating");
@@ -179,9 +185,49 @@ fn all_sorted_alike(sorts: &[Sort]) -> bool {
     all.all(|other| first.as_ref() == Some(&other))
 }
 
+/// Warning about a degenerate solution.
+pub(super) fn of_degenerate(degenerate: &DegenerateScaling) -> String {
+    let DegenerateScaling { transform, signs, is_replaced, is_flat } = degenerate;
+    let name = match transform {
+        Transform::PrimaryTies => "primary ties",
+        Transform::SecondaryTies => "secondary ties",
+        Transform::Interval => "interval scaling",
+    };
+    let why = if signs.n_coincident > 0 {
+        format!(
+            "{} of textures at the same point, with dissimilarities of up to {:.0} of 100",
+            counted(signs.n_coincident, "pair"),
+            signs.largest_coincident
+        )
+    } else if signs.n_steps == 1 {
+        "all distances are equal, although the dissimilarities differ".to_owned()
+    } else {
+        format!(
+            "only {} different dissimilarities for {}, which very different positions fit",
+            signs.n_levels,
+            counted(signs.n_pairs, "pair")
+        )
+    };
+    if *is_replaced {
+        format!(
+            "{name} gave a degenerate solution ({why}), whose stress of nearly 0 has no meaning; interval scaling was used instead"
+        )
+    } else {
+        // The usual remedy has been tried.
+        let remedy = if *is_flat {
+            "interval scaling was tried, but it puts all textures into fewer dimensions; use sorts into more groups, or more participants"
+        } else {
+            "use interval scaling, or sorts into more groups"
+        };
+        format!(
+            "{name} gave a degenerate solution ({why}): its stress of nearly 0 has no meaning, and its positions are unreliable; {remedy}"
+        )
+    }
+}
+
 /// Warnings about the perceptual space.
-pub(super) fn of_scaling(perceptual: &Mds, n_dims: usize) -> Vec<String> {
-    let (points, mut said) = (&perceptual.points, Vec::new());
+pub(super) fn of_scaling(perceptual: &Mds, options: &SpaceOptions) -> Vec<String> {
+    let (points, n_dims, mut said) = (&perceptual.points, options.n_dims, Vec::new());
     if points.len() < least_textures(n_dims) {
         said.push(format!(
             "{} are too few for {n_dims} dimensions: with fewer than {}, stress is low for any data and has no meaning",
@@ -204,10 +250,13 @@ pub(super) fn of_scaling(perceptual: &Mds, n_dims: usize) -> Vec<String> {
     let is_collapsed =
         distances.last().is_some_and(|largest| distances[distances.len() / 2] < COLLAPSED * largest);
     if is_collapsed {
-        said.push(
-            "the perceptual space has collapsed: most textures coincide, far from one or a few others, so stress and adjective directions have no meaning; use secondary ties or more participants"
-                .to_owned(),
-        );
+        let remedy = match options.mds.transform {
+            Transform::PrimaryTies | Transform::SecondaryTies => "interval scaling or more participants",
+            Transform::Interval => "more participants, or leave out the textures that lie apart",
+        };
+        said.push(format!(
+            "the perceptual space has collapsed: most textures coincide, far from one or a few others, so stress and adjective directions have no meaning; use {remedy}"
+        ));
     }
     said
 }

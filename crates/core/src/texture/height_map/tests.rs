@@ -14,24 +14,25 @@ use crate::dsp::square_transform::{index_of, series};
 use crate::maths::rng::Random;
 use crate::units::{Hertz, Newtons};
 
-const SIDE_M: f64 = 0.04;
-const RATE: Hertz = Hertz(1000.0);
+pub(super) const SIDE_M: f64 = 0.04;
+pub(super) const RATE: Hertz = Hertz(1000.0);
 const TICK: usize = 5;
-const SHARP: HeightMapOptions = HeightMapOptions { patch_radius_m: 0.0, ..HeightMapOptions::HARD_PLASTIC };
+pub(super) const SHARP: HeightMapOptions =
+    HeightMapOptions { patch_radius_m: 0.0, ..HeightMapOptions::HARD_PLASTIC };
 
-fn map_of(n: usize, options: HeightMapOptions, height_m: impl Fn(f64, f64) -> f64) -> HeightMap {
+pub(super) fn map_of(n: usize, options: HeightMapOptions, height_m: impl Fn(f64, f64) -> f64) -> HeightMap {
     let step_m = SIDE_M / n as f64;
     let heights_m = (0..n * n).map(|i| height_m((i % n) as f64 * step_m, (i / n) as f64 * step_m)).collect();
     HeightMap::new(heights_m, SIDE_M, options).unwrap()
 }
 
 /// A cosine with this amplitude and these periods along x and y.
-fn wave(n: usize, options: HeightMapOptions, [x, y]: [f64; 2], height_m: f64) -> HeightMap {
+pub(super) fn wave(n: usize, options: HeightMapOptions, [x, y]: [f64; 2], height_m: f64) -> HeightMap {
     map_of(n, options, |x_m, y_m| height_m * (TAU * (x * x_m + y * y_m) / SIDE_M).cos())
 }
 
 /// Waves of random phase and equal amplitude with these fewest and most periods on a side, in all directions.
-fn random_map(n: usize, periods: [f64; 2], options: HeightMapOptions) -> HeightMap {
+pub(super) fn random_map(n: usize, periods: [f64; 2], options: HeightMapOptions) -> HeightMap {
     let mut random = Random::new(7);
     let mut field = vec![Complex::new(0.0, 0.0); n * n];
     let most = periods[1] as isize;
@@ -46,13 +47,13 @@ fn random_map(n: usize, periods: [f64; 2], options: HeightMapOptions) -> HeightM
 }
 
 /// Positions at a constant speed in a direction, one a sample.
-fn line(mps: f64, angle_rad: f64, n: usize) -> Vec<[f64; 2]> {
+pub(super) fn line(mps: f64, angle_rad: f64, n: usize) -> Vec<[f64; 2]> {
     let at = |i: usize| mps * i as f64 / RATE.0;
     (0..n).map(|i| [0.003 + at(i) * angle_rad.cos(), 0.021 + at(i) * angle_rad.sin()]).collect()
 }
 
 /// What the renderer plays on a path. The first tick lands; sample i is at position i + 1 - TICK of the path.
-fn played(map: &HeightMap, path_m: &[[f64; 2]], force: Newtons) -> Vec<f64> {
+pub(super) fn played(map: &HeightMap, path_m: &[[f64; 2]], force: Newtons) -> Vec<f64> {
     let levels = map.prepare();
     let mut voice = HeightMapVoice::new(RATE.0 as f32);
     let mut passage = Passage::default();
@@ -247,6 +248,9 @@ fn scaling_and_stretching_change_heights_and_side_within_the_limits() {
     assert_eq!((wide.side_m(), wide.heights_m()), (1.5 * SIDE_M, map.heights_m()));
     assert_eq!((map.stretched(1.0), map.stretched(-3.0)), (map.clone(), map.clone()));
     assert_eq!((map.stretched(1e9).side_m(), map.stretched(1e-9).side_m()), (1.0, 1e-3));
+    for factor in [1.5, 1.0, -3.0, 1e9, 1e-9, f64::NAN] {
+        assert_eq!(map.stretched_side_m(factor), map.stretched(factor).side_m(), "{factor}");
+    }
     // Every result is a valid map.
     let steep = random_map(512, [1.0, 255.0], SHARP);
     for changed in [map.scaled(1e9), map.scaled(-1e9), steep.scaled(1e12), steep.stretched(1e-9)] {
@@ -268,7 +272,6 @@ fn a_map_is_prepared_once_and_its_multiples_not_at_all() {
     let scaled = map.scaled(-0.7);
     assert_eq!(scaled, unprepared.scaled(-0.7));
     assert_eq!(format!("{scaled:?}"), format!("{:?}", unprepared.scaled(-0.7)));
-    assert_eq!(HeightMap::blended(&[(Some(&map), -0.7), (None, 1.7)]), Some(scaled.clone()));
     let (got, expected) = (scaled.prepare(), unprepared.scaled(-0.7).prepare());
     assert_eq!(got.view().n(), expected.view().n());
     let highest = expected.view().octaves().iter().fold(0.0_f32, |most, sample| most.max(sample.abs()));
@@ -278,66 +281,6 @@ fn a_map_is_prepared_once_and_its_multiples_not_at_all() {
     }
     // The contact patch does not grow with the tile.
     assert_eq!(map.stretched(1.5).prepare(), unprepared.stretched(1.5).prepare());
-}
-
-#[test]
-fn a_blend_of_equal_tiles_is_the_sum_by_weight() {
-    let a = wave(32, HeightMapOptions { force: Newtons(8.0), ..SHARP }, [2.0, 1.0], 1e-4);
-    let b = wave(32, HeightMapOptions { speed_exponent: 1.0, ..SHARP }, [0.0, 3.0], 1e-4);
-    let blend = HeightMap::blended(&[(Some(&a), 0.5), (Some(&b), 0.25), (None, 0.25)]).unwrap();
-    let options = blend.options();
-    assert!((options.force.0 - 17.0 / 3.0).abs() < 1e-12);
-    assert!((options.speed_exponent - 5.0 / 3.0).abs() < 1e-12);
-    // At the same force, a map with eight times the reference force has half the acceleration.
-    let path_m = line(0.1, 0.7, 50);
-    let [all, of_a, of_b] = [&blend, &a, &b].map(|map| map.acceleration(&path_m, Newtons(2.0), RATE));
-    for ((all, of_a), of_b) in all.iter().zip(of_a).zip(of_b) {
-        assert!((all - 0.5 * of_a - 0.25 * of_b).abs() < 1e-9);
-    }
-    // A map of another resolution is resampled to the finer one.
-    let fine = wave(128, SHARP, [5.0, 0.0], 1e-4);
-    let both = HeightMap::blended(&[(Some(&b), 0.6), (Some(&fine), 0.4)]).unwrap();
-    assert_eq!((both.n(), both.side_m()), (128, SIDE_M));
-    let expected = wave(128, SHARP, [0.0, 3.0], 6e-5);
-    for (i, got) in both.heights_m().iter().enumerate() {
-        assert!((got - expected.heights_m()[i] - 0.4 * fine.heights_m()[i]).abs() < 1e-15);
-    }
-    assert_eq!(HeightMap::blended(&[(Some(&a), 1.0), (Some(&b), 0.0)]), Some(a.clone()));
-    assert_eq!(HeightMap::blended(&[(None, 1.0), (Some(&a), f64::NAN)]), None);
-    assert_eq!(HeightMap::blended(&[]), None);
-    // Weights of a field sum to one, and some are negative.
-    let field = HeightMap::blended(&[(Some(&b), 1.25), (Some(&b), -0.25)]).unwrap();
-    for (got, expected) in field.heights_m().iter().zip(b.heights_m()) {
-        assert!((got - expected).abs() < 1e-15);
-    }
-}
-
-#[test]
-fn tiles_of_other_sides_are_repeated_a_whole_number_of_times() {
-    let a = wave(64, SHARP, [3.0, 2.0], 1e-4);
-    // Tiles of half the side, slightly off: two copies with 6 % change of scale.
-    let b = wave(64, SHARP, [1.0, 0.0], 1e-4).stretched(0.53);
-    let both = HeightMap::blended(&[(Some(&a), 0.6), (Some(&b), 0.4)]).unwrap();
-    assert_eq!((both.n(), both.side_m()), (128, SIDE_M));
-    let expected = |x_m: f64, y_m: f64, copies: f64| {
-        let turn = |x: f64, y: f64| (TAU * (x * x_m + y * y_m) / SIDE_M).cos();
-        6e-5 * turn(3.0, 2.0) + 4e-5 * turn(copies, 0.0)
-    };
-    let wanted = map_of(128, SHARP, |x_m, y_m| expected(x_m, y_m, 2.0));
-    for (got, wanted) in both.heights_m().iter().zip(wanted.heights_m()) {
-        assert!((got - wanted).abs() < 1e-15);
-    }
-    // Tiles of 1.5 times the side: four copies of the heavier one hold three of the other, at 8/9 of its scale.
-    let larger = a.stretched(1.5);
-    let both = HeightMap::blended(&[(Some(&a), 0.6), (Some(&larger), 0.4)]).unwrap();
-    assert_eq!((both.n(), both.side_m()), (256, 4.0 * SIDE_M));
-    // A finer map cannot be copied so often, and the other one is left out.
-    let finest = wave(512, SHARP, [3.0, 2.0], 1e-4);
-    let alone = HeightMap::blended(&[(Some(&finest), 0.6), (Some(&larger), 0.4)]).unwrap();
-    assert_eq!((alone.n(), alone.side_m()), (512, SIDE_M));
-    for (got, whole) in alone.heights_m().iter().zip(finest.heights_m()) {
-        assert!((got - 0.6 * whole).abs() < 1e-15);
-    }
 }
 
 proptest! {
@@ -357,23 +300,5 @@ proptest! {
         );
         prop_assert_eq!(checked, Ok(view));
         prop_assert!(view.n() <= 32);
-    }
-
-    /// Sums of any maps are valid, and have no seam: heights repeat with the tile, and the heaviest keeps its scale.
-    #[test]
-    fn blends_are_valid_maps(
-        weights in prop::collection::vec(-1.5_f64..1.5, 3),
-        ln_stretches in prop::collection::vec(-0.7_f64..0.7, 3),
-    ) {
-        let map = wave(16, HeightMapOptions::HARD_PLASTIC, [1.0, 2.0], 1e-4);
-        let maps: Vec<HeightMap> = ln_stretches.iter().map(|ln| map.stretched(ln.exp())).collect();
-        let parts: Vec<(Option<&HeightMap>, f64)> = maps.iter().map(Some).zip(weights.clone()).collect();
-        let heaviest = (0..3).max_by(|a, b| weights[*a].abs().total_cmp(&weights[*b].abs())).unwrap();
-        if let Some(blend) = HeightMap::blended(&parts) {
-            let copies = blend.side_m() / maps[heaviest].side_m();
-            prop_assert!([1.0, 2.0, 4.0].iter().any(|whole: &f64| (copies - whole).abs() < 1e-9), "{}", copies);
-            let again = HeightMap::new(blend.heights_m().to_vec(), blend.side_m(), blend.options());
-            prop_assert_eq!(again, Ok(blend));
-        }
     }
 }

@@ -233,5 +233,6 @@ proptest! {
 }
 
 mod direction;
+mod fade;
 mod published;
 mod radial;

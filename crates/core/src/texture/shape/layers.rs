@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::texture::height_map::{HeightMap, SIDES_M};
+use crate::texture::height_map::HeightMap;
 use crate::texture::profile::Profile;
 use crate::texture::relief::{MAX_MPS2, Relief, STEPS_M};
 
@@ -28,8 +28,7 @@ pub(super) fn shaped_height_map(map: &HeightMap, stretch: f64, scale: f64) -> Op
     if scale == 0.0 {
         return None;
     }
-    let side_m = (stretch * map.side_m()).clamp(*SIDES_M.start(), *SIDES_M.end());
-    let factor = scale * (side_m / map.side_m()).powi(2);
+    let factor = scale * (map.stretched_side_m(stretch) / map.side_m()).powi(2);
     // A smaller tile is steeper and a larger one flatter: in this order, nothing on the way exceeds the limits.
     let shaped = if stretch < 1.0 {
         map.scaled(factor).stretched(stretch)

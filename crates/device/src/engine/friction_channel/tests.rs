@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::time::Duration;
 
 use shagreen_synth::drive::{DriveConfig, Driven};
-use shagreen_synth::renderer::{Mix, Parent};
+use shagreen_synth::renderer::{Blend, Mix, Parent};
 
 use super::{FRICTION_CEILING, FrictionConfig, FrictionWave};
 use crate::controls::{Drive, Input};
@@ -163,6 +163,46 @@ fn a_relief_varies_the_level_over_place() {
     };
     let amplitude = part(f64::sin).hypot(part(f64::cos)) as f32;
     assert!((amplitude / 0.02 - 1.0).abs() < 0.1, "{amplitude}");
+}
+
+/// A wavy texture and one without heights in turn, at some phases of the wave: the variation is no steeper than the wave itself,
+/// which changes by 0.0013 in a sample of 0.1 ms.
+#[test]
+fn the_variation_over_place_fades_at_a_change_of_the_mix() {
+    for n_frames in [2000, 2025, 2050, 2075] {
+        let wave = rubbed(wavy(), 0.5);
+        let (mut handle, mut engine) = stroking(config(10_000.0, FrictionWave::Level), vec![wave]);
+        play(&mut engine, n_frames, 25);
+        let plain = handle.load(rubbed(white(1.0), 0.5)).unwrap();
+        handle.set_mix(Mix::solo(plain)).unwrap();
+        let (_, levels) = play(&mut engine, 1000, 25);
+        let steepest = levels.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f32::max);
+        assert!(steepest < 0.002, "{steepest} after {n_frames} frames");
+        assert!(levels[500..].iter().all(|level| (level - 0.5).abs() < 1e-3));
+    }
+}
+
+/// The weights end 20 ms after a silent mix, when the coefficient is still at 37 % of its value. What the waves add to the level
+/// of a texture without heights must have faded by then: it bends by less than 0.0005 in 0.1 ms, and a step of 4 % of that
+/// coefficient within 0.25 ms would bend it by up to 0.003.
+#[test]
+fn the_variation_over_place_fades_with_the_texture_into_silence() {
+    for n_frames in [2000, 2025, 2050, 2075] {
+        let levels = |texture: OwnedTexture| {
+            let texture = rubbed(texture, 0.5);
+            let (mut handle, mut engine) = stroking(config(10_000.0, FrictionWave::Level), vec![texture]);
+            play(&mut engine, n_frames, 25);
+            handle.set_mix(Mix::silent(Blend::Shared)).unwrap();
+            play(&mut engine, 1000, 25).1
+        };
+        let (wavy, plain) = (levels(wavy()), levels(white(1.0)));
+        let added: Vec<f32> = wavy.iter().zip(&plain).map(|(wavy, plain)| wavy - plain).collect();
+        let bend = |three: &[f32]| (three[2] - 2.0 * three[1] + three[0]).abs();
+        let sharpest = added.windows(3).map(bend).fold(0.0, f32::max);
+        assert!(sharpest < 8e-4, "{sharpest} after {n_frames} frames");
+        assert!(added[..100].iter().any(|x| x.abs() > 0.01), "the waves are felt before");
+        assert!(added[500..].iter().all(|x| x.abs() < 1e-6));
+    }
 }
 
 #[test]

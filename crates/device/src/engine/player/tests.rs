@@ -24,25 +24,32 @@ fn run(player: &mut Player, n_ticks: usize) -> Vec<(f64, Touch)> {
     (0..n_ticks).map(one).collect()
 }
 
-/// A stroke of 1 s at one position, pressed from its first report on.
+/// A stroke of 1 s at one position, pressed from its first report on, which states its impact speed.
 fn pressed_stroke() -> Track {
     let sample = |i| PenSample {
         time_secs: 0.01 * f64::from(i),
         force_n: 2.0,
         touching: true,
+        impact_mps: (i == 0).then_some(0.1),
         ..PenSample::default()
     };
     let samples: Vec<PenSample> = (0..100).map(sample).collect();
     Track::new(&samples).unwrap()
 }
 
-/// A stroke of 0.5 s to the right at 0.1 m/s with a force of 0.5 N.
+/// A stroke of 0.5 s to the right at 0.1 m/s with a force of 0.5 N, which starts in contact.
 fn straight_stroke() -> Track {
+    landed_stroke(None)
+}
+
+/// The same stroke; its first sample states this impact speed.
+fn landed_stroke(impact_mps: Option<f64>) -> Track {
     let sample = |i| PenSample {
         time_secs: 0.01 * f64::from(i),
         x_m: 1e-3 * f64::from(i),
         force_n: 0.5,
         touching: true,
+        impact_mps: impact_mps.filter(|_| i == 0),
         ..PenSample::default()
     };
     Track::new(&(0..=50).map(sample).collect::<Vec<_>>()).unwrap()
@@ -358,16 +365,18 @@ fn a_repeated_stroke_has_its_speed_and_is_lifted_in_between() {
 }
 
 #[test]
-fn every_beginning_of_a_repeated_stroke_lands() {
-    let mut player = Player::new();
-    player.play(Box::new(straight_stroke()));
-    player.set_input(Input::Repeat(Repeat::AS_RECORDED));
-    let landed = (0..590).filter(|_| {
-        run(&mut player, 1);
-        player.take_landing(0.0).is_some()
-    });
+fn every_beginning_of_a_repeated_stroke_lands_unless_the_stroke_starts_in_contact() {
     // Almost three seconds, with a period of 0.6 s.
-    assert_eq!(landed.count(), 5);
+    for (impact_mps, n_landings) in [(Some(0.1), 5), (Some(0.0), 0), (None, 0)] {
+        let mut player = Player::new();
+        player.play(Box::new(landed_stroke(impact_mps)));
+        player.set_input(Input::Repeat(Repeat::AS_RECORDED));
+        let landed = (0..590).filter(|_| {
+            run(&mut player, 1);
+            player.take_landing(0.0).is_some()
+        });
+        assert_eq!(landed.count(), n_landings, "{impact_mps:?}");
+    }
 }
 
 #[test]

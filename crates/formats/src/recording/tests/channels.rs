@@ -62,8 +62,12 @@ fn a_wav_file_without_a_sidecar_asks_for_all_its_units() {
 fn what_render_wrote_comes_back_with_its_trace() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("out.wav");
-    let trace =
-        TraceV1 { time_s: vec![0.0, 0.002], speed_mm_per_s: vec![100.0, 200.0], force_n: vec![1.0, 1.0] };
+    let trace = TraceV1 {
+        time_s: vec![0.0, 0.002],
+        speed_mm_per_s: vec![100.0, 200.0],
+        force_n: vec![1.0, 1.0],
+        ..TraceV1::default()
+    };
     let sidecar = SidecarV1 {
         format: FORMAT.into(),
         version: VERSION.into(),
@@ -72,6 +76,7 @@ fn what_render_wrote_comes_back_with_its_trace() {
         channels: vec!["acceleration".into()],
         rate_hz: 1000,
         seconds: 0.003,
+        name: None,
         texture: None,
         at: None,
         shape: None,

@@ -9,7 +9,7 @@ use crate::maths::rng::lcg_noise;
 use crate::people::dissimilarities::Dissimilarities;
 use crate::people::mds::axes::settle;
 use crate::people::mds::start::Classical;
-use crate::people::mds::{ByDimension, MdsOptions, Ties, nonmetric, nonmetric_from};
+use crate::people::mds::{ByDimension, MdsOptions, Transform, nonmetric, nonmetric_from};
 
 fn vectors() -> Value {
     serde_json::from_str(include_str!("../../../../../../vectors/d_mds/mds_vectors.json")).unwrap()
@@ -53,7 +53,7 @@ fn condensed(dissimilarities: &Dissimilarities) -> Vec<f64> {
 }
 
 /// SMACOF from the classical start, as the reference script runs it.
-fn by_smacof(dissimilarities: &Dissimilarities, dims: usize, ties: Ties) -> (Vec<Vec<f64>>, Vec<f64>) {
+fn by_smacof(dissimilarities: &Dissimilarities, dims: usize, ties: Transform) -> (Vec<Vec<f64>>, Vec<f64>) {
     let mut points = Classical::new(dissimilarities).in_dims(dims, 0);
     let history = smacof(&condensed(dissimilarities), dims, ties, &mut points, 1e-9);
     (settle(&points, dims, 1.0), history)
@@ -68,7 +68,7 @@ fn pools() {
 #[test]
 fn the_oracle_is_the_script() {
     let (v, textures) = (vectors(), sorted_textures());
-    for (name, ties) in [("primary", Ties::Primary), ("secondary", Ties::Secondary)] {
+    for (name, ties) in [("primary", Transform::PrimaryTies), ("secondary", Transform::SecondaryTies)] {
         for (dims, golden) in (1..=10).zip(floats(&v["stress1_dims1_10"][name])) {
             let (_, history) = by_smacof(&textures, dims, ties);
             // The steps are the same. Sums of 300 pairs round differently by 1e-14, and the steps converge rather than
@@ -76,7 +76,7 @@ fn the_oracle_is_the_script() {
             check(&[*history.last().unwrap()], &[golden], 1e-12);
         }
     }
-    let (points, history) = by_smacof(&textures, 2, Ties::Primary);
+    let (points, history) = by_smacof(&textures, 2, Transform::PrimaryTies);
     assert_eq!(history.len() as u64, v["iters"].as_u64().unwrap());
     for (point, golden) in points.iter().zip(rows(&v["X2_primary"])) {
         // Coordinates are up to 50, and stress is flat along some directions.
@@ -94,7 +94,7 @@ fn random_starts() {
     let mut found: Vec<f64> = (0..50)
         .map(|i| {
             let mut points: Vec<f64> = lcg_noise(50, 5000 + i).iter().map(|x| 30.0 * x).collect();
-            *smacof(&condensed, 2, Ties::Primary, &mut points, 1e-9).last().unwrap()
+            *smacof(&condensed, 2, Transform::PrimaryTies, &mut points, 1e-9).last().unwrap()
         })
         .collect();
     found.sort_by(f64::total_cmp);
@@ -117,14 +117,15 @@ fn random_starts() {
 fn four_items_in_one_and_two_dimensions() {
     let (v, four) = (&vectors()["demo4"], four_items());
     for (dims, ties, name) in [
-        (1, Ties::Primary, "stress_1d_primary"),
-        (2, Ties::Primary, "stress_2d_primary"),
-        (1, Ties::Secondary, "stress_1d_secondary"),
+        (1, Transform::PrimaryTies, "stress_1d_primary"),
+        (2, Transform::PrimaryTies, "stress_2d_primary"),
+        (1, Transform::SecondaryTies, "stress_1d_secondary"),
     ] {
         let (_, history) = by_smacof(&four, dims, ties);
         // All are zero except for the residual at which SMACOF stopped, which depends on rounding.
         check(&[*history.last().unwrap()], &[number(&v[name])], 1e-15);
-        let stress = nonmetric(&four, dims, &MdsOptions { ties, ..MdsOptions::usual(1) }).unwrap().stress;
+        let stress =
+            nonmetric(&four, dims, &MdsOptions { transform: ties, ..MdsOptions::usual(1) }).unwrap().stress;
         assert!(stress < 1e-9, "{name}: {stress}");
     }
 }
@@ -132,9 +133,9 @@ fn four_items_in_one_and_two_dimensions() {
 #[test]
 fn stress_is_no_higher_than_by_smacof() {
     let (v, textures) = (vectors(), sorted_textures());
-    for (name, ties) in [("primary", Ties::Primary), ("secondary", Ties::Secondary)] {
+    for (name, ties) in [("primary", Transform::PrimaryTies), ("secondary", Transform::SecondaryTies)] {
         let golden = floats(&v["stress1_dims1_10"][name]);
-        let options = MdsOptions { ties, ..MdsOptions::usual(1) };
+        let options = MdsOptions { transform: ties, ..MdsOptions::usual(1) };
         let stress: Vec<f64> = ByDimension::new(&textures, &options)
             .unwrap()
             .best(1..=10, None, &|| true)

@@ -1,10 +1,10 @@
 //! Slow oracle: SMACOF as published, on full matrices, with the same steps as the script of the golden vectors.
 
 use crate::maths::isotonic::isotonic;
-use crate::people::mds::Ties;
+use crate::people::mds::Transform;
 
 /// Disparities of the distances, pair by pair.
-fn disparities(dissimilarities: &[f64], distances: &[f64], ties: Ties) -> Vec<f64> {
+fn disparities(dissimilarities: &[f64], distances: &[f64], ties: Transform) -> Vec<f64> {
     let mut order: Vec<usize> = (0..distances.len()).collect();
     order.sort_by(|a, b| {
         let within = distances[*a].total_cmp(&distances[*b]);
@@ -12,16 +12,36 @@ fn disparities(dissimilarities: &[f64], distances: &[f64], ties: Ties) -> Vec<f6
     });
     let sorted: Vec<f64> = order.iter().map(|k| distances[*k]).collect();
     let fitted = match ties {
-        Ties::Primary => isotonic(&sorted),
+        Transform::PrimaryTies => isotonic(&sorted),
         // Each value of a tied run is replaced by the mean of the run; isotonic regression keeps adjacent equal values
         // equal.
-        Ties::Secondary => {
+        Transform::SecondaryTies => {
             let mut means = Vec::new();
             for run in order.chunk_by(|a, b| dissimilarities[*a] == dissimilarities[*b]) {
                 let mean = run.iter().map(|k| distances[*k]).sum::<f64>() / run.len() as f64;
                 means.extend(std::iter::repeat_n(mean, run.len()));
             }
             isotonic(&means)
+        }
+        Transform::Interval => {
+            let n = order.len() as f64;
+            let lowest = dissimilarities[order[0]];
+            let values: Vec<f64> = order.iter().map(|k| dissimilarities[*k] - lowest).collect();
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let [sum, total] = [&values, &sorted].map(|of| of.iter().sum::<f64>());
+            let (squares, product) = (dot(&values, &values), dot(&values, &sorted));
+            // The best of all feasible lines: the free one, the constant, and the one through the origin.
+            let determinant = n * squares - sum * sum;
+            let free =
+                [(total * squares - sum * product) / determinant, (n * product - sum * total) / determinant];
+            let misfit = |line: &[f64; 2]| -> f64 {
+                values.iter().zip(&sorted).map(|(v, d)| (d - line[0] - line[1] * v).powi(2)).sum()
+            };
+            let lines = [free, [total / n, 0.0], [0.0, product / squares]];
+            let feasible = lines.into_iter().filter(|line| line.iter().all(|part| *part >= 0.0));
+            let [start, slope] =
+                feasible.min_by(|a, b| misfit(a).total_cmp(&misfit(b))).expect("the constant is feasible");
+            values.iter().map(|v| start + slope * v).collect()
         }
     };
     let mut out = vec![0.0; distances.len()];
@@ -43,7 +63,7 @@ fn distances(points: &[f64], dims: usize) -> Vec<f64> {
 pub(super) fn smacof(
     condensed: &[f64],
     dims: usize,
-    ties: Ties,
+    ties: Transform,
     points: &mut Vec<f64>,
     least: f64,
 ) -> Vec<f64> {

@@ -1,5 +1,6 @@
 //! Layers of interpolated textures: direction, height map, stick-slip friction and rotation.
 
+use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 use super::{contact, point, truth};
@@ -10,7 +11,7 @@ use crate::texture::height_map::{HeightMap, HeightMapOptions};
 use crate::texture::plane::Plane;
 use crate::texture::stick_slip::StickSlip;
 use crate::texture::{GrainNode, TextureModel};
-use crate::units::{MetersPerSecond, Newtons};
+use crate::units::{Hertz, MetersPerSecond, Newtons, Radians};
 
 const PLACES: [(f64, f64); 5] = [(10.0, 10.0), (90.0, 10.0), (90.0, 90.0), (10.0, 90.0), (45.0, 50.0)];
 /// Index of the directional texture.
@@ -25,8 +26,7 @@ fn places() -> [SpacePoint; 5] {
 }
 
 fn bumps() -> Arc<HeightMap> {
-    let heights_m =
-        (0..256).map(|i| 2e-5 * (0.125 * std::f64::consts::TAU * f64::from(i % 16)).cos()).collect();
+    let heights_m = (0..256).map(|i| 2e-5 * (0.25 * PI * f64::from(i % 16)).cos()).collect();
     let options = HeightMapOptions { force: Newtons(1.0), speed_exponent: 1.5, patch_radius_m: 5e-4 };
     Arc::new(HeightMap::new(heights_m, 0.01, options).unwrap())
 }
@@ -35,14 +35,16 @@ fn isotropic() -> Vec<TextureModel> {
     places().into_iter().map(|at| truth(at, 0.0)).collect()
 }
 
-fn with_brushed(height_map: &Arc<HeightMap>) -> Vec<TextureModel> {
-    let mut textures = isotropic();
-    let model = textures[BRUSHED].clone();
+/// A texture that is quieter along its lay.
+fn brushed(model: TextureModel) -> TextureModel {
     let quiet = |n: &GrainNode| GrainNode { level_mps2: ALONG * n.level_mps2, ..n.clone() };
     let along: Vec<GrainNode> = model.nodes().iter().map(quiet).collect();
-    textures[BRUSHED] = model
-        .with_along(Some(along))
-        .unwrap()
+    model.with_along(Some(along)).unwrap()
+}
+
+fn with_brushed(height_map: &Arc<HeightMap>) -> Vec<TextureModel> {
+    let mut textures = isotropic();
+    textures[BRUSHED] = brushed(textures[BRUSHED].clone())
         .with_height_map(Some(Arc::clone(height_map)))
         .with_stick_slip(Some(STICK_SLIP))
         .with_turn_rad(TURN_RAD);
@@ -156,5 +158,59 @@ fn height_map_friction_and_rotation_follow_the_weights() {
         assert!((model.turn_rad() - TURN_RAD).abs() < 1e-9, "{mode:?}: {}", model.turn_rad());
         let bare = model_at(&authoring.clone().without_reliefs(), at, mode);
         assert!(bare.height_map().is_none() && bare == model.with_height_map(None));
+    }
+}
+
+/// Levels in m/s² of strokes in twelve directions on the pad, and the signal of a stroke over the height map.
+fn felt(model: &TextureModel) -> Vec<f64> {
+    let plane = Plane::new(model);
+    let level = |i: u32| {
+        let angle = Radians(PI * f64::from(i) / 12.0 - model.turn_rad());
+        plane.at_angle(contact(), angle).level_mps2
+    };
+    let (sin, cos) = model.turn_rad().sin_cos();
+    let path_m: Vec<[f64; 2]> = (0..12)
+        .map(|i| [2e-3 * f64::from(i), 1e-3 * f64::from(i)])
+        .map(|[x_m, y_m]| [cos * x_m + sin * y_m, cos * y_m - sin * x_m])
+        .collect();
+    let still = vec![0.0; path_m.len()];
+    let signal = |map: &Arc<HeightMap>| map.acceleration(&path_m, Newtons(1.0), Hertz(50.0));
+    (0..12).map(level).chain(model.height_map().map_or(still, signal)).collect()
+}
+
+/// Lays at right angles cancel halfway; from there on, the axes of the other texture hold.
+#[test]
+fn halfway_between_two_lays_at_right_angles_no_direction_differs_and_nothing_jumps() {
+    let mut textures = isotropic();
+    for (i, turn_rad) in [(0, 0.4), (1, 0.4 + FRAC_PI_2)] {
+        textures[i] = brushed(textures[i].clone()).with_turn_rad(turn_rad);
+    }
+    textures[0] = textures[0].clone().with_height_map(Some(bumps()));
+    textures[1] = textures[1].clone().with_height_map(Some(Arc::new(bumps().stretched(1.1))));
+    let authoring = authoring(&textures);
+    let at = |t: f64| felt(&model_at(&authoring, point(10.0 + 80.0 * t, 10.0), Mode::Parametric));
+    let (begin, halfway) = (at(0.0), at(0.5));
+    let span = |felt: &[f64]| {
+        let (low, high) =
+            felt[..12].iter().fold((f64::MAX, 0.0_f64), |(low, high), x| (low.min(*x), high.max(*x)));
+        low / high
+    };
+    assert!((span(&begin) - ALONG).abs() < 0.05, "{begin:?}");
+    assert!((span(&halfway) - 1.0).abs() < 1e-6, "{halfway:?}");
+    for mode in [Mode::Parametric, Mode::Field] {
+        let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let at = |t: f64| felt(&model_at(&authoring, point(10.0 + 80.0 * t, 10.0), mode));
+        let (mut low, mut high) = ((0.1, at(0.1)), (0.9, at(0.9)));
+        for _ in 0..30 {
+            let t = 0.5 * (low.0 + high.0);
+            let middle = (t, at(t));
+            if apart(&low.1, &middle.1) > apart(&middle.1, &high.1) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        let most = begin.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        assert!(apart(&low.1, &high.1) < 1e-4 * most, "{mode:?}: a jump at {}", low.0);
     }
 }

@@ -64,6 +64,19 @@ fn the_grains_are_met_exactly_along_and_across_and_mixed_between() {
 }
 
 #[test]
+fn a_direction_on_the_pad_counts_from_the_rotated_axis() {
+    let plane = Plane::new(&brushed());
+    let contact = Contact::from_mm_per_s_and_n(100.0, 1.0);
+    let level = |on_pad: f64| plane.toward(contact, Radians(on_pad)).level_mps2;
+    let across = plane.at(contact).level_mps2;
+    assert!((level(TURN_RAD) - across).abs() < 1e-9);
+    assert!((level(TURN_RAD + FRAC_PI_2) - across / 3.0).abs() < 1e-9);
+    let prepared = plane.prepare();
+    // The renderer's weights and angles are in f32.
+    assert!((level(0.7) - rendered(&prepared, contact, 0.7).0).abs() < 1e-4);
+}
+
+#[test]
 fn isotropic_textures_are_the_same_at_every_angle() {
     for model in [two_resonances(&[0.05, 0.1], &[0.5, 1.0]), arma(6, 4)] {
         let plane = Plane::new(&model);

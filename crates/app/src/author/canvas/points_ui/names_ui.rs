@@ -1,0 +1,42 @@
+//! Names of authored points on the canvas.
+
+use std::sync::Arc;
+
+use egui::{FontId, Pos2, Rect, Ui, Vec2, vec2};
+
+use crate::author::canvas::point_id;
+use crate::look::label_places::{Placed, Wish, label_places};
+use crate::look::theme::Tokens;
+use crate::panel::Panel;
+
+/// Font size of the names, in points.
+const SIZE: f32 = 11.5;
+
+/// Draws the name of the selected point where it covers nothing in `covered`, and that of the point under the pointer. During a
+/// drag and a comparison the selected one has none.
+pub(super) fn names_ui(
+    ui: &Ui,
+    radius: f32,
+    panel: &Panel<'_>,
+    places: &[Pos2],
+    covered: &[Rect],
+    t: &Tokens,
+) {
+    let is_selected_named = panel.compare.heard().is_none();
+    for (index, (texture, pos)) in panel.project.authored.iter().zip(places).enumerate() {
+        let id = point_id(texture.key);
+        let response = ui.ctx().read_response(id);
+        let is_pointed = response.is_some_and(|response| response.hovered() || response.has_focus());
+        let is_selected = index == panel.project.selected && is_selected_named;
+        if ui.ctx().is_being_dragged(id) || !(is_pointed || is_selected) {
+            continue;
+        }
+        let galley = ui.painter().layout_no_wrap(texture.name.clone(), FontId::proportional(SIZE), t.text);
+        let wish =
+            Wish { dot: 0, size: galley.size(), side: Vec2::ZERO, is_needed: is_pointed, may_lead: false };
+        let placed = label_places(&[*pos], radius, &[wish], covered, ui.clip_rect()).first().copied();
+        let Some(Placed { area, .. }) = placed.flatten() else { continue };
+        ui.painter().rect_filled(area.expand2(vec2(4.0, -1.0)), 3.0, t.background.gamma_multiply(0.9));
+        ui.painter().galley(area.min, Arc::clone(&galley), t.text);
+    }
+}

@@ -1,0 +1,74 @@
+//! Question about a picture: whether it finds its point, or becomes the relief of a texture.
+
+use egui::{Button, Context, Label, RichText, Ui, vec2};
+
+use crate::command::Command;
+use crate::command::prompt::PromptCommand;
+use crate::command::relief::{ReliefCommand, ReliefOf};
+use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::theme::{GAP, tokens};
+use crate::state::source::Source;
+use crate::strings::relief as strings;
+
+/// Width of the sheet, in points.
+const WIDTH: f32 = 420.0;
+
+pub(crate) struct ReliefChoice {
+    picture: Source,
+    of: ReliefOf,
+    /// Name of the texture.
+    name: String,
+    is_focused: bool,
+}
+
+impl ReliefChoice {
+    /// Question about a picture; `name` is that of the texture that would get the relief.
+    pub(crate) fn new(picture: Source, of: ReliefOf, name: String) -> Self {
+        Self { picture, of, name, is_focused: false }
+    }
+
+    /// Draws the question; returns the requested commands.
+    pub(crate) fn show(&mut self, ctx: &Context) -> Vec<Command> {
+        let shown = sheet(ctx, "use of a picture", |ui| {
+            ui.set_width(WIDTH);
+            self.content_ui(ui)
+        });
+        let mut commands = shown.inner;
+        if is_left(ctx) {
+            commands.push(Command::CloseSheet);
+        }
+        commands
+    }
+
+    fn content_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
+        let t = tokens(ui.ctx());
+        let mut commands = Vec::new();
+        ui.add(Label::new(RichText::new(strings::ASK_TITLE).heading().strong()).selectable(false));
+        ui.add(Label::new(RichText::new(self.picture.name()).color(t.text_weak)).truncate());
+        ui.add_space(GAP);
+        let find = ui.add(wide(ui, strings::FIND_POINT)).on_hover_text(strings::FIND_POINT_HELP);
+        if !std::mem::replace(&mut self.is_focused, true) {
+            find.request_focus();
+        }
+        if find.clicked() {
+            let look = Command::Prompt(PromptCommand::Look(vec![self.picture.clone()]));
+            commands.extend([Command::CloseSheet, look]);
+        }
+        let use_it = strings::use_as_relief(&self.name);
+        let relief = ui.add(wide(ui, &use_it).truncate()).accessible_name(&use_it);
+        if relief.on_hover_text(strings::RELIEF_HELP).clicked() {
+            let begin = ReliefCommand::Begin(Some(self.of.clone()), Some(self.picture.clone()));
+            commands.push(Command::Relief(begin));
+        }
+        ui.add_space(GAP);
+        if ui.button(strings::CANCEL).clicked() {
+            commands.push(Command::CloseSheet);
+        }
+        commands
+    }
+}
+
+/// Button over the width of the sheet.
+fn wide<'a>(ui: &Ui, text: &'a str) -> Button<'a> {
+    Button::new(text).min_size(vec2(ui.available_width(), 0.0))
+}
