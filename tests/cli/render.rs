@@ -239,7 +239,7 @@ fn the_trace_has_positions_and_impact_speeds_where_they_are_known() {
     assert_eq!(pen["speed_normal_mm_per_s"], Value::Null);
     let table = trace("t_s,speed,force,speed_normal\n0,0,0,\n0.02,0,0,150\n0.04,0,1,\n");
     assert_eq!((&table["x_mm"], &table["y_mm"]), (&Value::Null, &Value::Null));
-    assert_eq!(table["speed_normal_mm_per_s"], json!([null, null, 150.0, null, null]));
+    assert_eq!(table["speed_normal_mm_per_s"], json!([null, null, null, 150.0, null]));
 }
 
 #[test]

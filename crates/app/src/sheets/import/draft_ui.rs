@@ -20,6 +20,8 @@ use crate::strings::import as strings;
 const TRACES: f32 = 196.0;
 /// Minimum height of the plane and of the spectrum, in points.
 const SPECTRA: f32 = 136.0;
+/// Width from which the plane and the spectrum fit beside each other, in points.
+const SIDE_BY_SIDE: f32 = 540.0;
 
 /// Draws the recording with this id and its texture.
 pub(super) fn draft_ui(
@@ -124,17 +126,23 @@ fn plots_ui(ui: &mut Ui, batch: &mut Batch, id: u64) {
     let mut segment = draft.segment.min(n.saturating_sub(1));
     let width = ui.available_width();
     let size = |share: f32| vec2(share * (width - GROUP_GAP), spectra + 44.0);
-    ui.horizontal_top(|ui| {
-        ui.allocate_ui_with_layout(size(0.42), Layout::top_down(Align::Min), |ui| {
-            ui.set_width(size(0.42).x);
-            segments_ui(ui, report, &mut segment, spectra);
+    if width < SIDE_BY_SIDE {
+        segments_ui(ui, report, &mut segment, spectra);
+        ui.add_space(GAP);
+        segment_spectrum_ui(ui, report, &mut segment, spectra);
+    } else {
+        ui.horizontal_top(|ui| {
+            ui.allocate_ui_with_layout(size(0.42), Layout::top_down(Align::Min), |ui| {
+                ui.set_width(size(0.42).x);
+                segments_ui(ui, report, &mut segment, spectra);
+            });
+            ui.add_space(GROUP_GAP - GAP);
+            ui.allocate_ui_with_layout(size(0.58), Layout::top_down(Align::Min), |ui| {
+                ui.set_width(size(0.58).x);
+                segment_spectrum_ui(ui, report, &mut segment, spectra);
+            });
         });
-        ui.add_space(GROUP_GAP - GAP);
-        ui.allocate_ui_with_layout(size(0.58), Layout::top_down(Align::Min), |ui| {
-            ui.set_width(size(0.58).x);
-            segment_spectrum_ui(ui, report, &mut segment, spectra);
-        });
-    });
+    }
     draft.segment = segment;
 }
 
