@@ -1,6 +1,6 @@
 //! Sheet of keyboard shortcuts.
 
-use egui::{Context, Grid, Label, RichText, ScrollArea};
+use egui::{Context, Grid, Label, RichText};
 
 use crate::command::{Command, listed};
 use crate::look::sheet_frame::{is_left, sheet};
@@ -12,9 +12,6 @@ const WIDTH: f32 = 860.0;
 
 /// Width at which a description is wrapped, in points.
 const LABEL_WIDTH: f32 = 270.0;
-
-/// Height of the window around the list, in points.
-const AROUND: f32 = 140.0;
 
 /// Draws the sheet; returns the requested command.
 pub(crate) fn shortcuts_ui(ctx: &Context) -> Option<Command> {
@@ -31,25 +28,22 @@ pub(crate) fn shortcuts_ui(ctx: &Context) -> Option<Command> {
         let commands = listed().filter_map(keys_of);
         let more = strings::MORE_KEYS.into_iter().map(|(keys, what)| (keys.to_owned(), what));
         let all: Vec<(String, &str)> = commands.chain(more).collect();
-        // In two columns, so that most windows show them all. The rows of the second one are higher.
-        let height = ctx.content_rect().height() - AROUND;
-        ScrollArea::vertical().max_height(height).show(ui, |ui| {
-            ui.columns(2, |columns| {
-                for (side, part) in all.chunks((3 * all.len()).div_ceil(5)).enumerate() {
-                    let grid = Grid::new(("shortcuts", side))
-                        .num_columns(2)
-                        .max_col_width(LABEL_WIDTH)
-                        .spacing([16.0, 3.0])
-                        .striped(true);
-                    grid.show(&mut columns[side], |ui| {
-                        for (keys, what) in part {
-                            ui.label(RichText::new(keys).monospace().color(t.accent));
-                            ui.label(*what);
-                            ui.end_row();
-                        }
-                    });
-                }
-            });
+        // In two columns, so that a low window shows them all. The rows of the second one are higher.
+        ui.columns(2, |columns| {
+            for (side, part) in all.chunks((3 * all.len()).div_ceil(5)).enumerate() {
+                let grid = Grid::new(("shortcuts", side))
+                    .num_columns(2)
+                    .max_col_width(LABEL_WIDTH)
+                    .spacing([16.0, 3.0])
+                    .striped(true);
+                grid.show(&mut columns[side], |ui| {
+                    for (keys, what) in part {
+                        ui.label(RichText::new(keys).monospace().color(t.accent));
+                        ui.label(*what);
+                        ui.end_row();
+                    }
+                });
+            }
         });
         ui.add_space(GAP);
         if ui.button(strings::CLOSE).clicked() {

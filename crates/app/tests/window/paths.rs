@@ -203,8 +203,7 @@ fn a_kept_path_is_heard_along_the_stroke() {
     click(&mut harness, &strings::texture("New texture"));
     assert_eq!(solo(&harness), Some(25));
     let keys = window(&harness).session().textures()[25].path.as_ref().unwrap().keys().to_vec();
-    let heard = |h: &Author| window(h).session().authored().unwrap().model.clone().unwrap();
-    assert_eq!(heard(&harness), keys[0].model);
+    // The click has begun a stroke that ends by itself; the button starts one that does not.
     click(&mut harness, strings::HAND_START);
     let last = keys[keys.len() - 1].model.clone();
     wait(&mut harness, "it comes to the end of the path", |h| {
