@@ -191,7 +191,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 /// Returns the lowest and the highest height, in µm.
-fn range_um(heights_m: &[f64]) -> [f64; 2] {
+pub(crate) fn range_um(heights_m: &[f64]) -> [f64; 2] {
     let low = heights_m.iter().copied().fold(f64::INFINITY, f64::min);
     let high = heights_m.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     [1e6 * low, 1e6 * high]

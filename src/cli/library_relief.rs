@@ -12,6 +12,7 @@ use shagreen_core::units::Newtons;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, write_library};
 
+use crate::cli::generate::range_um;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed, Usage, warn_of_restricted};
 use crate::cli::profile_source::ProfileArgs;
@@ -134,8 +135,7 @@ fn add_height_map(args: &Args, size: ReliefSize) -> anyhow::Result<()> {
     let relief = height_map::of_picture(args.profile.path(), size, options, &Printed)
         .map_err(|error| with_options(error, size))?;
     let map = &relief.map;
-    let low_um = 1e6 * map.heights_m().iter().copied().fold(f64::INFINITY, f64::min);
-    let high_um = 1e6 * map.heights_m().iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let [low_um, high_um] = range_um(map.heights_m());
     let (n, side_mm) = (map.n(), 1e3 * map.side_m());
     let mut library = args.library.load()?;
     height_map::add_to_texture(&mut library, &args.texture, &relief, &Printed)?;

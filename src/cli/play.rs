@@ -97,7 +97,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "at": chosen.at_json(),
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
-            "shape": chosen.shape_text(),
+            "shape": chosen.shape.text(),
         }),
         || {
             format!(

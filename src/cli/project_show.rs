@@ -72,21 +72,16 @@ fn describe(texture: &AuthoredTexture) -> Value {
         "natural": blend.weights == Weights::Natural,
         "extrapolate": blend.outside == Outside::Extrapolated,
         "locked": blend.locked,
-        "shape": shape(texture),
+        "shape": texture.shape.text(),
         "path_points": texture.path.as_ref().map(|path| path.points.len()),
         "has_picture": texture.picture.is_some(),
     })
 }
 
-/// The shape of a texture as text, unless it is neutral.
-fn shape(texture: &AuthoredTexture) -> Option<String> {
-    (!texture.shape.is_neutral()).then(|| texture.shape.to_string())
-}
-
 fn line(texture: &AuthoredTexture, widest: usize) -> String {
     let tags =
         if texture.tags.is_empty() { String::new() } else { format!("  [{}]", texture.tags.join(", ")) };
-    let shape = shape(texture).map_or_else(String::new, |shape| format!("  {shape}"));
+    let shape = texture.shape.text().map_or_else(String::new, |shape| format!("  {shape}"));
     format!(
         "{:>3}  {:widest$}  at {}  {}{shape}{tags}",
         texture.key,

@@ -119,7 +119,7 @@ fn d_prime_text(d_prime: f64, seconds: f64, agreement: &Agreement) -> String {
     match agreement.relation() {
         Relation::Processed => {
             let value = if d_prime > MOST_D_PRIME {
-                format!("above {MOST_D_PRIME:.0} (told apart at once)")
+                format!("above {MOST_D_PRIME:.0} (easy to tell apart)")
             } else {
                 format!("{d_prime:.2}")
             };
@@ -178,7 +178,7 @@ mod tests {
     fn a_d_prime_is_stated_up_to_5_and_only_where_it_applies() {
         let processed = Agreement { correlation: 0.9, spectra_db: 1.0 };
         assert!(d_prime_text(1.234, 0.8, &processed).starts_with("d' 1.23, predicted"));
-        assert!(d_prime_text(37.3, 0.8, &processed).starts_with("d' above 5 (told apart at once)"));
+        assert!(d_prime_text(37.3, 0.8, &processed).starts_with("d' above 5 (easy to tell apart)"));
         let noise = d_prime_text(6.2, 0.8, &Agreement { correlation: 0.05, spectra_db: 0.4 });
         assert!(noise.starts_with("no d': different noise") && !noise.contains("6.2"), "{noise}");
         let other = d_prime_text(57.7, 0.8, &Agreement { correlation: 0.05, spectra_db: 12.0 });

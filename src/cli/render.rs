@@ -119,7 +119,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
             "blend": chosen.mode.id(),
-            "shape": chosen.shape_text(),
+            "shape": chosen.shape.text(),
             "seed": args.seed,
             "lost": lost_in_wav(rendered),
         }),
@@ -152,7 +152,7 @@ fn add_taps(
     let taps = add_tap_transients(samples, rate_hz, model_rate_hz, contacts.into_track()?, tap.into())?;
     if taps.n_limited > 0 {
         Printed.note(&format!(
-            "{} so fast that the tap transient would exceed {} m/s², to which it is limited",
+            "{} so fast that the tap transient would exceed {} m/s²; it is limited to this value",
             counted_landings(taps.n_limited),
             TAP_AMPLITUDES_MPS2.end()
         ));
@@ -239,7 +239,7 @@ fn sidecar(args: &Args, library: &Library, chosen: &Sound, motion: &Motion, rate
         clamped: chosen.clamped,
         extrapolated: chosen.extrapolated,
         blend: chosen.mode.id().to_owned(),
-        shape: chosen.shape_text(),
+        shape: chosen.shape.text(),
         parents: chosen.parents.iter().map(parent).collect(),
         library: library.name.clone(),
         label_source: library.label_source().map(|source| LabelSource::id(source).to_owned()),

@@ -164,7 +164,7 @@ fn print_figures(args: &Args, chosen: &Sound, library: &Library, figures: &Figur
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
             "blend": chosen.mode.id(),
-            "shape": chosen.shape_text(),
+            "shape": chosen.shape.text(),
             "begins_path": chosen.path.is_some(),
         }),
         || {

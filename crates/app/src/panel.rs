@@ -52,7 +52,7 @@ impl<'a> Panel<'a> {
     /// Authored texture that the inspector shows: the one that an open comparison plays, or else the selected one.
     pub fn inspected(&self) -> &'a AuthoredTexture {
         let compared = self.compare.heard_key().filter(|_| !self.compare.is_hidden());
-        let heard = self.project.authored.iter().find(|texture| Some(texture.key) == compared);
+        let heard = compared.and_then(|key| self.project.authored.iter().find(|texture| texture.key == key));
         heard.map_or(self.project.texture(), Arc::as_ref)
     }
 

@@ -268,9 +268,15 @@ impl Session {
         self.authored.is_hidden
     }
 
-    /// Library indices and weights of the contributing textures that are shown separately, largest weight first.
+    /// Library indices and weights of all contributing textures, largest weight first; empty without
+    /// [`Session::authored`].
+    pub fn parents(&self) -> &[(usize, f64)] {
+        self.authored().map_or(&[][..], |authored| &authored.parents)
+    }
+
+    /// Those of [`Session::parents`] that are shown separately.
     pub fn shown_parents(&self) -> &[(usize, f64)] {
-        let parents = self.authored().map_or(&[][..], |authored| &authored.parents);
+        let parents = self.parents();
         &parents[..parents.len().min(N_SHOWN_PARENTS)]
     }
 

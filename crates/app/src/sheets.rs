@@ -31,6 +31,7 @@ use crate::command::prompt::PromptCommand;
 use crate::command::relief::{ReliefCommand, ReliefOf};
 use crate::command::stroke::StrokeCommand;
 use crate::command::{Command, FileCommand};
+use crate::look::sheet_frame::is_left;
 use crate::look::theme::{RADIUS, tokens};
 use crate::panel::Panel;
 use crate::sheets::about_sheet::AboutSheet;
@@ -179,6 +180,10 @@ impl Sheet {
             Self::Export(sheet) => sheet.is_saving(),
             _ => false,
         };
+        let is_measuring = matches!(self, Self::Devices(sheet) if sheet.is_measuring());
+        if self.is_open() && !is_measuring && is_left(ctx) && !is_saving {
+            commands.push(Command::CloseSheet);
+        }
         if is_saving {
             // The sheet stays until the outcome has been shown.
             return commands;

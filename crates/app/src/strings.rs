@@ -189,11 +189,15 @@ pub fn dropouts(n: u64) -> String {
     if n == 1 { "1 dropout".to_owned() } else { format!("{n} dropouts") }
 }
 
+/// Text with a capital first letter.
+pub fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// Accessible name of an axis from the words at its ends, for example [`ROUGH_SMOOTH`] and [`HARD_SOFT`].
 pub fn axis([low, high]: &[String; 2]) -> String {
-    let words = if high.is_empty() { low.clone() } else { format!("{low} to {high}") };
-    let mut letters = words.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
+    if high.is_empty() { sentence(low) } else { sentence(&format!("{low} to {high}")) }
 }
 
 pub fn axis_help(ends: &[String; 2]) -> String {

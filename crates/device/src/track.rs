@@ -6,7 +6,7 @@ use shagreen_synth::contact::Contact;
 
 use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
 use crate::touch::{Touch, mix_contacts};
-use crate::track::coarse::{COARSE_INTERVAL_SECS, Fix, coarse_speeds};
+use crate::track::coarse::{COARSE_INTERVAL_SECS, coarse_speeds};
 
 /// Rate of a track's points, in Hz.
 pub const TRACK_RATE_HZ: f64 = 1000.0;
@@ -120,11 +120,13 @@ impl Track {
     /// [`TrackError`] names the first invalid sample.
     pub fn new(samples: &[PenSample]) -> Result<Self, TrackError> {
         check(samples)?;
-        let usual_secs = usual_interval_secs(samples);
+        let reported = last_at_each_time(samples);
+        let warnings = TrackWarnings { n_equal_timestamps: samples.len() - reported.len() };
+        let usual_secs = usual_interval_secs(&reported);
         let gap_secs = LIFT_GAP_SECS.max(LIFT_GAP_INTERVALS * usual_secs);
-        let (mut reports, warnings) = reports_of(samples, gap_secs);
+        let mut reports = reports_of(&reported, gap_secs);
         if usual_secs > COARSE_INTERVAL_SECS {
-            set_coarse_speeds(&mut reports, samples, gap_secs);
+            set_coarse_speeds(&mut reports, &reported, gap_secs);
         }
         let (Some(first), Some(last)) = (reports.first(), reports.last()) else {
             return Err(TrackError::Empty);
@@ -234,35 +236,26 @@ fn usual_interval_secs(samples: &[PenSample]) -> f64 {
     intervals.get(intervals.len() / 2).copied().unwrap_or(0.0)
 }
 
+/// Returns the last sample at each time.
+fn last_at_each_time(samples: &[PenSample]) -> Vec<PenSample> {
+    let groups = samples.chunk_by(|a, b| a.time_secs == b.time_secs);
+    groups.filter_map(|group| group.last().copied()).collect()
+}
+
 /// Replaces the speeds of reports that are far apart by those of the distances between them.
 fn set_coarse_speeds(reports: &mut [Report], samples: &[PenSample], gap_secs: f64) {
-    // Of several samples at one time, the last is a report.
-    let is_report = |index: &usize| {
-        let next = samples.get(index + 1);
-        next.is_none_or(|next| next.time_secs != samples[*index].time_secs)
-    };
-    let fix = |index: usize| {
-        let PenSample { time_secs, x_m, y_m, touching, .. } = samples[index];
-        Fix { time_secs, x_m, y_m, touching }
-    };
-    let fixes: Vec<Fix> = (0..samples.len()).filter(is_report).map(fix).collect();
-    for (report, speed_mps) in reports.iter_mut().zip(coarse_speeds(&fixes, gap_secs)) {
+    for (report, speed_mps) in reports.iter_mut().zip(coarse_speeds(samples, gap_secs)) {
         if report.touching {
             report.touch.contact.speed_mps = speed_mps as f32;
         }
     }
 }
 
-/// Returns one report per time, with speeds.
-fn reports_of(samples: &[PenSample], gap_secs: f64) -> (Vec<Report>, TrackWarnings) {
+/// Returns one report per sample, with speeds.
+fn reports_of(samples: &[PenSample], gap_secs: f64) -> Vec<Report> {
     let mut reports: Vec<Report> = Vec::with_capacity(samples.len());
-    let mut warnings = TrackWarnings::default();
     let mut estimator = SpeedEstimator::new(SpeedFilter::KALMAN);
-    for (index, sample) in samples.iter().enumerate() {
-        if samples.get(index + 1).is_some_and(|next| next.time_secs == sample.time_secs) {
-            warnings.n_equal_timestamps += 1;
-            continue;
-        }
+    for sample in samples {
         let is_new_stroke = reports
             .last()
             .is_none_or(|previous| !previous.touching || sample.time_secs - previous.time_secs > gap_secs);
@@ -283,7 +276,7 @@ fn reports_of(samples: &[PenSample], gap_secs: f64) -> (Vec<Report>, TrackWarnin
             impact_mps: sample.impact_mps.map(|mps| mps as f32),
         });
     }
-    (reports, warnings)
+    reports
 }
 
 /// Returns the landings, at times since the start.

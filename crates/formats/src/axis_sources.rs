@@ -8,10 +8,7 @@ use shagreen_core::space::LabelSource;
 /// positions on any axis.
 pub fn axis_sources(report: &Value) -> Option<String> {
     let judgments = judgments(report)?.label();
-    let axes = report.get("axes")?.as_array()?;
-    if !axes.iter().any(is_predicted) {
-        return None;
-    }
+    let axes = predicted_axes(report)?;
     let source = |axis: &Value| {
         let name = axis.get("name").and_then(Value::as_str)?;
         Some(if is_predicted(axis) {
@@ -26,7 +23,13 @@ pub fn axis_sources(report: &Value) -> Option<String> {
 
 /// Whether the report states that positions were predicted by a model trained on ratings by people.
 pub fn is_predicted_from_ratings(report: &Value) -> bool {
-    judgments(report) == Some(LabelSource::HumanRatings) && axis_sources(report).is_some()
+    judgments(report) == Some(LabelSource::HumanRatings) && predicted_axes(report).is_some()
+}
+
+/// All axes of the report, if features predicted the positions on any of them.
+fn predicted_axes(report: &Value) -> Option<&Vec<Value>> {
+    let axes = report.get("axes")?.as_array()?;
+    axes.iter().any(is_predicted).then_some(axes)
 }
 
 fn judgments(report: &Value) -> Option<LabelSource> {

@@ -263,7 +263,7 @@ fn parse_row(
         time,
         values,
         touching: touching.map(|value| value != 0.0),
-        impact_mps: speed_normal.map(|speed| columns.speed_normal_mps * speed),
+        impact_mps: speed_normal.map(|speed| columns.speed_normal_mps() * speed),
     })
 }
 

@@ -202,11 +202,6 @@ impl Sound {
         }
     }
 
-    /// Returns the shape as text, or `None` if it is neutral.
-    pub fn shape_text(&self) -> Option<String> {
-        (!self.shape.is_neutral()).then(|| self.shape.to_string())
-    }
-
     /// Returns the point as JSON.
     pub fn at_json(&self) -> Option<[f64; 2]> {
         self.at.map(|at| [at.rough_smooth, at.hard_soft])

@@ -60,6 +60,23 @@ pub struct Friction {
 }
 
 impl Friction {
+    /// Mean of frictions, each with its weight of 0 or more, and the sum of the weights; `None` if the sum is zero.
+    pub fn mean(parts: impl Iterator<Item = (Self, f32)>) -> Option<(Self, f32)> {
+        let (mut sum, mut sum_of_weights) = (Self::default(), 0.0_f32);
+        for (friction, weight) in parts {
+            sum.kinetic += weight * friction.kinetic;
+            sum.static_ratio += weight * friction.static_ratio;
+            sum.stribeck_speed_mps += weight * friction.stribeck_speed_mps;
+            sum_of_weights += weight;
+        }
+        let mean = Self {
+            kinetic: sum.kinetic / sum_of_weights,
+            static_ratio: sum.static_ratio / sum_of_weights,
+            stribeck_speed_mps: sum.stribeck_speed_mps / sum_of_weights,
+        };
+        (sum_of_weights > 0.0).then_some((mean, sum_of_weights))
+    }
+
     fn can_stick(self) -> bool {
         self.is_finite() && self.kinetic > 0.0 && self.static_ratio > 1.0 && self.stribeck_speed_mps > 0.0
     }

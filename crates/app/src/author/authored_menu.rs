@@ -9,7 +9,7 @@ use crate::command::Command;
 use crate::command::clipboard::ClipboardCommand;
 use crate::command::relief::{ReliefCommand, ReliefOf};
 use crate::panel::Panel;
-use crate::state::compare::{CompareCommand, Side};
+use crate::state::compare::Side;
 use crate::state::edit::Edit;
 use crate::strings::{authored as words, clipboard, compare, export, relief};
 
@@ -73,7 +73,7 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture) -> Opti
     for side in [Side::A, Side::B] {
         let is_there = panel.compare.side_of(key) == Some(side);
         ui.add_enabled_ui(can_go && !is_there, |ui| {
-            let assign = Command::Compare(CompareCommand::Assign(side, key));
+            let assign = Command::Edit(Edit::SetCompared(panel.compare.assigned(side, key)));
             asked = menu_entry(ui, &compare::compare_as(side.letter()), "", assign).or(asked.take());
         });
     }

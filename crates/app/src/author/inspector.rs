@@ -210,7 +210,7 @@ fn parents_ui(ui: &mut Ui, panel: &Panel<'_>, room: f32) -> Vec<Command> {
 /// Library indices and weights of the contributing textures with cards: those with colors of their own, then as many others
 /// as fit into `room` points of height.
 fn parents_with_cards(panel: &Panel<'_>, room: f32) -> Vec<(usize, f64)> {
-    let parents = panel.session.authored().map_or(&[][..], |authored| &authored.parents);
+    let parents = panel.session.parents();
     let fitting = ((room + CARD_GAP) / (CARD_HEIGHT + CARD_GAP)).max(0.0) as usize;
     // A weight that would be displayed as 0.0 % gets no card. In a field, distant textures contribute negatively.
     let is_worthwhile = |(rank, (_, weight)): &(usize, &(usize, f64))| {

@@ -46,7 +46,7 @@ fn controls_ui(ui: &mut Ui, panel: &Panel<'_>, shape: &Shape) -> Option<Edit> {
 /// Whether a control has something to act on in the texture at the point. The textures that contribute are asked, because
 /// the interpolated one has the shape already: at a depth of 0, its relief is gone.
 fn acts(panel: &Panel<'_>, control: ShapeControl) -> bool {
-    let parents = panel.session.authored().map_or(&[][..], |authored| &authored.parents);
+    let parents = panel.session.parents();
     if parents.is_empty() || panel.solo().is_some() {
         // The textures at the point are not known yet, or another one plays.
         return true;

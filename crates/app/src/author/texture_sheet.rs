@@ -21,7 +21,7 @@ use crate::author::texture_picture::picture_ui;
 use crate::author::whole_space::whole_space_ui;
 use crate::command::Command;
 use crate::look::plot::title;
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::spectrum_plot::{SpectrumLine, spectra_plot};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::panel::Panel;
@@ -70,7 +70,7 @@ impl TextureSheet {
             // The texture was removed.
             return vec![Command::CloseSheet];
         };
-        let shown = sheet(ctx, "texture sheet", |ui| {
+        sheet(ctx, "texture sheet", |ui| {
             ui.set_width(FACTS_WIDTH + GROUP_GAP + PLOTS_WIDTH);
             ui.add(Label::new(RichText::new(words::TITLE).heading().strong()).selectable(false));
             ui.add_space(GAP);
@@ -82,12 +82,8 @@ impl TextureSheet {
             ui.add_space(GAP);
             commands.extend(foot_ui(ui, panel, texture));
             commands
-        });
-        let mut commands = shown.inner;
-        if is_left(ctx) {
-            commands.push(Command::CloseSheet);
-        }
-        commands
+        })
+        .inner
     }
 
     fn content_ui(&mut self, ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Vec<Command> {

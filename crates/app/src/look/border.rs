@@ -4,7 +4,7 @@ use egui::{CursorIcon, Id, Rect, Sense, Stroke, Ui};
 
 use crate::look::theme::tokens;
 
-/// Distances from a border within which it is dragged, outside and inside its panel, in points.
+/// Width of the strip beside a border that can be dragged, outside and inside its panel, in points.
 const OUTSIDE: f32 = 5.0;
 const INSIDE: f32 = 2.0;
 

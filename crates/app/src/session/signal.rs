@@ -170,7 +170,7 @@ impl SignalContext<'_> {
         let named = |(texture, weight): &(usize, f64)| ParentV1::new(library, *texture, *weight);
         let sidecar = SidecarV1 {
             blend: authored.mode.id().to_owned(),
-            shape: (!authored.shape.is_neutral()).then(|| authored.shape.to_string()),
+            shape: authored.shape.text(),
             library: library.name.clone(),
             label_source: self.source.map(|source| LabelSource::id(source).to_owned()),
             parents: parents.iter().map(named).collect(),

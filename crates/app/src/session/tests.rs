@@ -189,13 +189,7 @@ fn all_that_is_audible_has_the_shape() {
     let frequencies = [Hertz(60.0), Hertz(150.0), Hertz(300.0)];
     let begun = new_project();
     let mut session = Session::new(begun.library.clone()).unwrap();
-    let start = std::time::Instant::now();
-    while session.is_preparing() {
-        assert!(start.elapsed().as_secs() < 300, "the field is computed");
-        session.begin_work(&ctx);
-        session.follow(&begun, None, &ctx);
-        std::thread::yield_now();
-    }
+    follow_until_ready(&mut session, &begun);
     for mode in Mode::ALL {
         let plain = edited(&begun, Edit::SetMode(mode));
         session.follow(&plain, None, &ctx);

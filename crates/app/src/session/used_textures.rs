@@ -103,11 +103,11 @@ impl Session {
         let kept = self.authored.unheard.as_ref().filter(|(pins, _)| *pins == texture.blend.locked);
         let space = match kept {
             // Triangulating a space in every frame would take too long.
-            Some((_, space)) => Ok(space.clone()),
-            None => self.space_of(&texture.blend),
+            Some((_, space)) => Ok(Cow::Borrowed(space)),
+            None => self.space_of(&texture.blend).map(Cow::Owned),
         };
         match space {
-            Ok(space) => spaces.find(&space).unwrap_or_else(|| Found::without_models(space)),
+            Ok(space) => spaces.find(&space).unwrap_or_else(|| Found::without_models(space.into_owned())),
             Err(_) => spaces.found_current(),
         }
     }

@@ -6,7 +6,7 @@ use egui::{Align, Context, Grid, Label, Layout, RichText, Ui, vec2};
 use shagreen_studio::about::{LICENSE, NAME, PARTS, VERSION, repository};
 
 use crate::command::Command;
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::state::files::StoragePaths;
 use crate::strings::{about as strings, help};
@@ -43,7 +43,7 @@ impl AboutSheet {
             ui.set_width(WIDTH);
             self.content_ui(ui)
         });
-        (shown.inner || is_left(ctx)).then_some(Command::CloseSheet)
+        shown.inner.then_some(Command::CloseSheet)
     }
 
     /// Draws the content; returns whether the user closes the sheet.

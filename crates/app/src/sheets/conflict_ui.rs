@@ -3,7 +3,7 @@
 use egui::{Button, Context, Grid, Label, RichText, ScrollArea};
 
 use crate::command::{Command, FileCommand};
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, tokens};
 use crate::state::conflict::Conflict;
 use crate::strings::conflict as strings;
@@ -58,8 +58,5 @@ pub(crate) fn conflict_ui(ctx: &Context, conflict: &Conflict, project: &str) -> 
             }
         });
     });
-    if is_left(ctx) {
-        commands.push(Command::CloseSheet);
-    }
     commands
 }

@@ -17,7 +17,7 @@ use shagreen_core::units::Kilograms;
 use self::calibration_ui::Measurement;
 use crate::browse::Browse;
 use crate::command::Command;
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::session::Session;
 use crate::state::rig::{Mounted, Rig};
@@ -80,10 +80,12 @@ impl DevicesSheet {
         if self.measurement.has_ended() {
             commands.push(Command::TakeOutputBack);
         }
-        if !self.measurement.is_running() && is_left(ctx) {
-            commands.push(Command::CloseSheet);
-        }
         commands
+    }
+
+    /// Whether the actuator is being measured. The sheet then stays.
+    pub(crate) fn is_measuring(&self) -> bool {
+        self.measurement.is_running()
     }
 
     fn content_ui(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {

@@ -16,7 +16,7 @@ use shagreen_studio::export::{self, FormatInfo, WAV};
 
 use crate::command::Command;
 use crate::command::signals::SignalsCommand;
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, Tokens, tokens};
 use crate::panel::Panel;
 use crate::session::authored_sources::AuthoredSources;
@@ -143,7 +143,7 @@ impl ExportSheet {
         });
         commands.extend(shown.inner.then_some(Command::CloseSheet));
         let is_done = matches!(self.state, State::Saved(_)) && ctx.input(|i| i.key_pressed(Key::Enter));
-        if (is_left(ctx) || is_done) && !self.is_saving() {
+        if is_done {
             commands.push(Command::CloseSheet);
         }
         commands

@@ -10,7 +10,7 @@ use shagreen_formats::gallery::{GALLERY, GalleryProject};
 use shagreen_formats::project::Project;
 
 use crate::command::{Command, FileCommand};
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, RADIUS, Tokens, tokens};
 use crate::state::gallery_pictures::GalleryPictures;
 use crate::strings::gallery as strings;
@@ -77,9 +77,6 @@ impl GallerySheet {
                 }
             });
         });
-        if is_left(ctx) {
-            commands.push(Command::CloseSheet);
-        }
         commands
     }
 

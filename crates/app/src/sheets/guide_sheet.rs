@@ -5,7 +5,7 @@ use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use shagreen_studio::guide::{GuidePage, PAGES};
 
 use crate::command::Command;
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, RADIUS, tokens};
 use crate::strings::help as strings;
 
@@ -52,9 +52,6 @@ impl GuideSheet {
                 commands.push(Command::CloseSheet);
             }
         });
-        if is_left(ctx) {
-            commands.push(Command::CloseSheet);
-        }
         commands
     }
 

@@ -12,7 +12,7 @@ mod fit_ui;
 pub mod import_context;
 mod model_ui;
 mod plane_plot;
-pub(crate) mod questions_ui;
+mod questions_ui;
 pub mod recording_state;
 pub mod sheet;
 mod shown_model;

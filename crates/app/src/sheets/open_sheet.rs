@@ -12,7 +12,7 @@ use crate::choices::signals::Slot;
 use crate::command::signals::SignalsCommand;
 use crate::command::stroke::StrokeCommand;
 use crate::command::{Command, FileCommand};
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, tokens};
 use crate::signals::reading::SIGNAL_ENDINGS;
 use crate::state::background::in_background;
@@ -132,15 +132,11 @@ impl OpenSheet {
         if let Some(entries) = self.listing.as_ref().and_then(|listing| listing.try_recv().ok()) {
             (self.entries, self.listing) = (Some(entries), None);
         }
-        let shown = sheet(ctx, "open sheet", |ui| {
+        sheet(ctx, "open sheet", |ui| {
             ui.set_width(560.0);
             self.content_ui(ui, is_opening)
-        });
-        let mut commands = shown.inner;
-        if is_left(ctx) {
-            commands.push(Command::CloseSheet);
-        }
-        commands
+        })
+        .inner
     }
 
     fn content_ui(&mut self, ui: &mut Ui, is_opening: bool) -> Vec<Command> {

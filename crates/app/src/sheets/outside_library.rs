@@ -8,7 +8,7 @@ use shagreen_studio::file::{folder_of, shown_name};
 
 use crate::browse::{Asked, BROWSE_WIDTH, Browse};
 use crate::command::{Command, FileCommand, LibraryAnswer};
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, tokens};
 use crate::state::files::Reading;
 use crate::strings::document as strings;
@@ -46,15 +46,11 @@ impl OutsideLibrarySheet {
 
     /// Draws the question; returns the requested commands. `is_opening` is true while a file is being read.
     pub(crate) fn show(&mut self, ctx: &Context, is_opening: bool) -> Vec<Command> {
-        let shown = sheet(ctx, "outside library", |ui| {
+        sheet(ctx, "outside library", |ui| {
             ui.set_width(WIDTH);
             self.content_ui(ui, is_opening)
-        });
-        let mut commands = shown.inner;
-        if is_left(ctx) {
-            commands.push(Command::CloseSheet);
-        }
-        commands
+        })
+        .inner
     }
 
     fn content_ui(&mut self, ui: &mut Ui, is_opening: bool) -> Vec<Command> {

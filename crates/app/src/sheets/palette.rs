@@ -4,7 +4,7 @@ use egui::{Button, Context, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 use shagreen_studio::export::{ExportFormat, FORMATS};
 
 use crate::command::{Command, FileCommand, listed};
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, tokens};
 use crate::strings::help as strings;
 
@@ -63,8 +63,6 @@ impl PaletteSheet {
         if let Some(row) = chosen.and_then(|index| rows.into_iter().nth(index)) {
             // The palette closes first, because the command may open another sheet.
             commands.extend([Command::CloseSheet, row.command]);
-        } else if is_left(ctx) {
-            commands.push(Command::CloseSheet);
         }
         commands
     }

@@ -5,7 +5,7 @@ use std::time::SystemTime;
 use egui::{Context, Label, RichText};
 
 use crate::command::{Command, FileCommand};
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, tokens};
 use crate::state::recovery::Leftover;
 use crate::strings::document as strings;
@@ -52,8 +52,5 @@ pub(crate) fn recovered_ui(ctx: &Context, leftovers: &[Leftover]) -> Vec<Command
             commands.push(Command::CloseSheet);
         }
     });
-    if is_left(ctx) {
-        commands.push(Command::CloseSheet);
-    }
     commands
 }

@@ -5,7 +5,7 @@ use egui::{Button, Context, Label, RichText, Ui, vec2};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
 use crate::command::relief::{ReliefCommand, ReliefOf};
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, tokens};
 use crate::state::source::Source;
 use crate::strings::relief as strings;
@@ -29,15 +29,11 @@ impl ReliefChoice {
 
     /// Draws the question; returns the requested commands.
     pub(crate) fn show(&mut self, ctx: &Context) -> Vec<Command> {
-        let shown = sheet(ctx, "use of a picture", |ui| {
+        sheet(ctx, "use of a picture", |ui| {
             ui.set_width(WIDTH);
             self.content_ui(ui)
-        });
-        let mut commands = shown.inner;
-        if is_left(ctx) {
-            commands.push(Command::CloseSheet);
-        }
-        commands
+        })
+        .inner
     }
 
     fn content_ui(&mut self, ui: &mut Ui) -> Vec<Command> {

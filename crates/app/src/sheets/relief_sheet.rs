@@ -16,15 +16,15 @@ use crate::browse::{Asked, BROWSE_WIDTH, Browse};
 use crate::command::Command;
 use crate::command::relief::{ReliefCommand, ReliefOf};
 use crate::look::motion::busy_ui;
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, GROUP_GAP, RADIUS, tokens};
 use crate::sheets::PICTURE_ENDINGS;
-use crate::sheets::import::questions_ui::sentence;
 use crate::state::background::{JobPanicked, LatestJob};
 use crate::state::own_surface::{OwnSurface, SurfacePicture};
 use crate::state::pad_surface::USUAL_LIGHT;
 use crate::state::source::{Source, paths_in};
 use crate::strings::relief as strings;
+use crate::strings::sentence;
 
 /// Width of the sheet, side of the picture, and width of the button beside the path, in points.
 const WIDTH: f32 = 600.0;
@@ -110,15 +110,11 @@ impl ReliefSheet {
     /// Draws the sheet; returns the requested commands.
     pub(crate) fn show(&mut self, ctx: &Context) -> Vec<Command> {
         self.collect(ctx);
-        let shown = sheet(ctx, "relief sheet", |ui| {
+        sheet(ctx, "relief sheet", |ui| {
             ui.set_width(WIDTH);
             self.content_ui(ui)
-        });
-        let mut commands = shown.inner;
-        if is_left(ctx) {
-            commands.push(Command::CloseSheet);
-        }
-        commands
+        })
+        .inner
     }
 
     /// Takes in what the workers have finished.

@@ -11,7 +11,7 @@ use shagreen_formats::library::{Library, Provenance};
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary};
 
 use crate::command::{Command, FileCommand};
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, Tokens, tokens};
 use crate::sheets::path_field::{PathField, PathTexts, completed};
 use crate::sheets::save::content::{Content, Outcome, write};
@@ -115,8 +115,7 @@ impl SaveSheet {
         let mut commands = shown.inner;
         commands.extend(self.granted.take().map(|path| Command::File(FileCommand::SaveTo(path))));
         let is_done = matches!(self.state, State::Saved(_)) && ctx.input(|i| i.key_pressed(Key::Enter));
-        let is_left = is_left(ctx) || is_done;
-        if is_left && !self.is_saving() {
+        if is_done {
             commands.push(Command::CloseSheet);
         }
         commands

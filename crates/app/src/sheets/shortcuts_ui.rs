@@ -3,7 +3,7 @@
 use egui::{Context, Grid, Label, RichText};
 
 use crate::command::{Command, listed};
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, tokens};
 use crate::strings::help as strings;
 
@@ -50,8 +50,5 @@ pub(crate) fn shortcuts_ui(ctx: &Context) -> Option<Command> {
             asked = Some(Command::CloseSheet);
         }
     });
-    if is_left(ctx) {
-        asked = Some(Command::CloseSheet);
-    }
     asked
 }

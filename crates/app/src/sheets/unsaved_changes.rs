@@ -3,7 +3,7 @@
 use egui::{Button, Context, Label, RichText};
 
 use crate::command::{Command, FileCommand};
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, tokens};
 use crate::state::leave::Leave;
 use crate::strings::document as strings;
@@ -48,8 +48,5 @@ pub(crate) fn leaving_ui(ctx: &Context, leave: Leave, project: &str, is_changed:
             }
         });
     });
-    if is_left(ctx) {
-        commands.push(Command::CloseSheet);
-    }
     commands
 }

@@ -41,8 +41,6 @@ impl Side {
 pub enum CompareCommand {
     /// Plays this side. If it is already playing, the comparison ends.
     Hear(Side),
-    /// Assigns the authored texture with this key to side A or B.
-    Assign(Side, u32),
     /// Hides or reveals which texture is on which side.
     SetBlind(bool),
     /// Records the answer that X is A, or B.
@@ -207,14 +205,12 @@ impl Compare {
         keys
     }
 
-    /// Executes a command, except that it assigns no side: an edit does.
+    /// Executes a command.
     pub fn carry_out(&mut self, command: CompareCommand) {
         match command {
             CompareCommand::Hear(side) => {
                 self.heard = (self.heard != Some(side) && self.is_possible()).then_some(side);
             }
-            // The project stores the sides, and [`Compare::follow`] takes them over.
-            CompareCommand::Assign(..) => {}
             CompareCommand::SetBlind(is_blind) => {
                 self.is_blind = is_blind;
                 self.is_swapped = is_blind && self.random.uniform() < 0.5;

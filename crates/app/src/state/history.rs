@@ -67,7 +67,7 @@ impl History {
         *project = after;
     }
 
-    /// Applies an edit as a part of the last step, with which it is undone.
+    /// Applies an edit and adds it to the last step. One undo reverts both.
     pub fn add_to_last(&mut self, project: &mut Project, edit: Edit) {
         *project = edited(project, edit);
         self.future.clear();

@@ -53,7 +53,7 @@ fn shown(d_prime: f64) -> String {
 pub fn meaning(d_prime: f64, relation: Relation) -> &'static str {
     match relation {
         Relation::Processed if d_prime > MOST_D_PRIME => {
-            "A and B are told apart at once. Predicted from the signals, not rated by people."
+            "A and B are easy to tell apart. Predicted from the signals, not rated by people."
         }
         Relation::Processed if d_prime >= 1.0 => {
             "A and B can be told apart. Predicted from the signals, not rated by people."
@@ -139,7 +139,7 @@ mod tests {
     #[test]
     fn the_sentence_counts_no_answers() {
         for (value, begin) in
-            [(0.2, "A and B are hard"), (3.0, "A and B can be"), (9.0, "A and B are told apart")]
+            [(0.2, "A and B are hard"), (3.0, "A and B can be"), (9.0, "A and B are easy to tell apart")]
         {
             let sentence = meaning(value, Relation::Processed);
             assert!(sentence.starts_with(begin) && sentence.ends_with("not rated by people."), "{sentence}");

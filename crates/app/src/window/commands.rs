@@ -6,6 +6,7 @@ use egui::Popup;
 use shagreen_formats::actuator_toml::built_in_actuators;
 use shagreen_studio::export::WAV;
 use shagreen_studio::file::shown_name;
+use shagreen_studio::height_map::ReliefPlace;
 
 use super::Window;
 use crate::author::inspector::name_field;
@@ -113,14 +114,9 @@ impl Window {
         show_notice(ctx, said);
     }
 
-    /// Executes a command about a comparison. The textures on its sides belong to the project. A hidden texture does not
-    /// begin with the sound of the previous one, which would tell the two apart.
-    fn carry_out_compare(&mut self, command: CompareCommand, ctx: &egui::Context) {
-        if let CompareCommand::Assign(side, key) = command {
-            let compared = self.compare.assigned(side, key);
-            self.carry_out(Command::Edit(Edit::SetCompared(compared)), ctx);
-            return;
-        }
+    /// Executes a command about a comparison. A hidden texture does not begin with the sound of the previous one, which
+    /// would reveal that they differ.
+    fn carry_out_compare(&mut self, command: CompareCommand) {
         if matches!(command, CompareCommand::Hear(_)) {
             for texture in self.compare.textures() {
                 self.session.prepare(texture);
@@ -180,7 +176,12 @@ impl Window {
         self.compare.end();
         // Undo no longer reverts what an earlier notice names.
         clear_earlier_notice(ctx);
-        if matches!(edit, Edit::AddTextures(_)) {
+        let adds_row = match &edit {
+            Edit::AddTextures(_) => true,
+            Edit::AddRelief { place, .. } => !matches!(place, ReliefPlace::InPlaceOf(_)),
+            _ => false,
+        };
+        if adds_row {
             self.pages.author.library.show_all();
             self.pages.author.library.reveal = Some(self.session.textures().len());
         }
@@ -212,7 +213,7 @@ impl Window {
             Command::Prompt(command) => self.carry_out_prompt(command, ctx),
             Command::Relief(command) => self.carry_out_relief(command, ctx),
             Command::ShowMap(quantity) => self.pages.author.map = quantity,
-            Command::Compare(command) => self.carry_out_compare(command, ctx),
+            Command::Compare(command) => self.carry_out_compare(command),
             Command::Signals(command) => self.carry_out_signals(command, ctx),
             Command::Undo if self.painting_labels()[0].is_some() => self.pages.signals.undo(),
             Command::Undo => {

@@ -4,6 +4,7 @@ use egui::{Context, Key, Modifiers, Popup};
 
 use super::Window;
 use crate::command::{Command, was_writing};
+use crate::panel::Panel;
 use crate::state::edit::Edit;
 use crate::workspace::Workspace;
 
@@ -19,7 +20,8 @@ impl Window {
         if is_used || self.pages.workspace != Workspace::Author {
             return None;
         }
-        let plays_alone = self.session.solo(&self.project).is_some() && self.compare.heard().is_none();
+        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
+        let plays_alone = panel.solo().is_some();
         let command = if self.pages.author.canvas.tool.is_on {
             Command::TogglePathTool
         } else if plays_alone {

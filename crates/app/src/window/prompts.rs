@@ -105,7 +105,7 @@ impl Window {
         let is_taken = |id: &str| textures.iter().any(|entry| entry.id == id);
         let id = free_id(&id_from_name(&texture.name), is_taken);
         let earlier = self.prompts.simulated_for(key).cloned();
-        let at = self.position_for(key, texture.at, earlier.as_ref());
+        let at = self.position_for(texture, earlier.as_ref());
         let picture = Picture::clone(&picture);
         let entry = Arc::new(felt_entry(id, &texture.name, &texture.notes, model, picture, at));
         let edit = Edit::JoinSimulated { key, entry: Arc::clone(&entry), earlier };
@@ -130,25 +130,22 @@ impl Window {
         is_its.then(|| Arc::clone(texture))
     }
 
-    /// Position of a texture that is simulated for the authored texture with this key, if it may have one: a built space and
-    /// chosen attributes place only what has been rated, and two textures at one position form no space. `earlier` was
-    /// simulated for it before. Textures that take no part in the authored texture do not count.
+    /// Position of a texture that is simulated for an authored texture, if it may have one: a built space and chosen
+    /// attributes place only what has been rated, and two textures at one position form no space. `earlier` was simulated
+    /// for it before. Textures that take no part in the authored texture do not count.
     pub(super) fn position_for(
         &self,
-        key: u32,
-        at: SpacePoint,
+        texture: &AuthoredTexture,
         earlier: Option<&Arc<TextureEntry>>,
     ) -> Option<SpacePoint> {
         let is_own = self.project.space.is_none() && self.project.axes.is_none();
-        let replaced = earlier.filter(|earlier| replaceable_felt(&self.project, key, earlier).is_some());
+        let replaced =
+            earlier.filter(|earlier| replaceable_felt(&self.project, texture.key, earlier).is_some());
         let textures = self.session.textures();
-        let is_far = |(texture, site): &(usize, SpacePoint)| {
-            replaced.is_some_and(|replaced| replaced.id == textures[*texture].id)
-                || site.distance(at) > LEAST_DISTANCE
+        let is_far = |(index, site): &(usize, SpacePoint)| {
+            replaced.is_some_and(|replaced| replaced.id == textures[*index].id)
+                || site.distance(texture.at) > LEAST_DISTANCE
         };
-        let texture = self.project.authored.iter().find(|texture| texture.key == key);
-        let left_out = texture.map_or_else(Vec::new, |texture| self.session.left_out(&texture.blend));
-        let takes_part = |(texture, _): &(usize, SpacePoint)| !left_out.contains(texture);
-        (is_own && self.session.placed().filter(takes_part).all(|site| is_far(&site))).then_some(at)
+        (is_own && self.session.placed_for(&texture.blend).iter().all(is_far)).then_some(texture.at)
     }
 }

@@ -107,10 +107,6 @@ impl Window {
         match made {
             Ok((entry, place)) => {
                 self.sheet = Sheet::Closed;
-                if !matches!(place, ReliefPlace::InPlaceOf(_)) {
-                    self.pages.author.library.show_all();
-                    self.pages.author.library.reveal = Some(self.session.textures().len());
-                }
                 self.gesture.begin_another();
                 let edit = Edit::AddRelief { entry: Arc::new(entry), place };
                 self.carry_out(Command::Edit(edit), ctx);
@@ -147,7 +143,7 @@ impl Window {
         relief: &PictureRelief,
     ) -> Result<(TextureEntry, ReliefPlace), String> {
         let texture = self.authored_with(key).ok_or_else(|| strings::GONE.to_owned())?;
-        let at = self.position_for(key, texture.at, None);
+        let at = self.position_for(texture, None);
         let is_taken = |name: &str| self.session.textures().iter().any(|entry| entry.name == name);
         let name = free_name(&strings::with_relief(&texture.name), is_taken);
         let is_shaped = at.is_none() && !texture.shape.is_neutral();

@@ -41,8 +41,7 @@ pub(super) struct Stage {
 impl Window {
     /// Draws the lower row with pad and scope.
     pub(super) fn stage_ui(&mut self, ui: &mut Ui, ctx: &egui::Context, commands: &mut Vec<Command>) {
-        let parents = self.session.authored().map_or(&[][..], |authored| &authored.parents);
-        let parents = pictured(parents);
+        let parents = pictured(self.session.parents());
         let is_bare = has_no_picture(&self.session);
         let turn = self.session.turn();
         let light = light_of(self.session.touch(), turn);
@@ -106,8 +105,7 @@ impl Window {
 
 /// Whether the only audible texture of the list has no picture.
 fn has_no_picture(session: &Session) -> bool {
-    let parents = session.authored().map_or(&[][..], |authored| &authored.parents);
-    let [(texture, _)] = parents[..] else { return false };
+    let [(texture, _)] = session.parents()[..] else { return false };
     session.textures().get(texture).is_some_and(|entry| entry.picture.is_none())
 }
 

@@ -114,7 +114,7 @@ fn the_sides_of_a_comparison_belong_to_the_project() {
     for _ in 0..2 {
         click(&mut harness, authored::ADD);
     }
-    carry_out(&mut harness, Command::Compare(CompareCommand::Assign(Side::B, 3)));
+    carry_out(&mut harness, Command::Edit(Edit::SetCompared([1, 3])));
     assert_eq!(window(&harness).project().compared, Some([1, 3]));
     undo(&mut harness);
     assert_eq!(window(&harness).project().compared, None);

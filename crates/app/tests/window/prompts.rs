@@ -255,7 +255,7 @@ fn a_photo_finds_its_place_and_what_is_none_is_told() {
     assert!(landed.picture.is_some() && says(&harness, "is not known"));
     drop_files(&mut harness, &[("broken.png", &bytes[..300])]);
     click(&mut harness, relief::FIND_POINT);
-    wait(&mut harness, "it is told", |h| says(h, "broken.png"));
+    wait(&mut harness, "the error is shown", |h| says(h, "broken.png"));
     assert_eq!(window(&harness).project().authored.len(), 2);
 }
 

@@ -136,7 +136,7 @@ fn what_is_no_relief_is_said_and_what_is_impossible_is_warned_of() {
     let mut harness = author();
     carry_out(&mut harness, Command::Relief(ReliefCommand::Begin(None, None)));
     drop_files(&mut harness, &[("broken.png", b"hello")]);
-    wait(&mut harness, "it is told", |h| says(h, "save it as JPEG or PNG: broken.png"));
+    wait(&mut harness, "the error is shown", |h| says(h, "save it as JPEG or PNG: broken.png"));
     assert!(!can_apply(&harness));
     drop_files(&mut harness, &[("ridges.png", &ridges())]);
     wait(&mut harness, "it is read", can_apply);
@@ -146,7 +146,7 @@ fn what_is_no_relief_is_said_and_what_is_impossible_is_warned_of() {
     wait(&mut harness, "the slope is warned of", |h| says(h, "slopes of") && can_apply(h));
     // A picture that cannot be read leaves the present one.
     drop_files(&mut harness, &[("broken.png", b"hello")]);
-    wait(&mut harness, "it is told", |h| says(h, "broken.png"));
+    wait(&mut harness, "the error is shown", |h| says(h, "broken.png"));
     assert!(says(&harness, "ridges.png") && can_apply(&harness));
     harness.key_press(Key::Escape);
     harness.run_steps(3);

@@ -45,7 +45,7 @@ pub(crate) fn index_of(wave_number: isize, n: usize) -> usize {
 }
 
 /// Swaps the rows and the columns of an `n` × `n` array.
-pub(crate) fn transpose(values: &mut [Complex<f64>], n: usize) {
+pub(crate) fn transpose<T>(values: &mut [T], n: usize) {
     const BLOCK: usize = 32;
     for row_block in (0..n).step_by(BLOCK) {
         for column_block in (row_block..n).step_by(BLOCK) {

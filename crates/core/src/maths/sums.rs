@@ -1,6 +1,8 @@
 //! Sums over samples, written for automatic vectorization: with several accumulators the compiler may reorder
 //! additions; with one it may not.
 
+use std::ops::{AddAssign, Mul};
+
 /// Number of accumulators for one sum.
 const N_LANES: usize = 8;
 
@@ -21,6 +23,13 @@ pub(crate) fn sum_of(x: &[f64], value: impl Fn(f64) -> f64) -> f64 {
         }
     }
     lanes.iter().sum::<f64>() + rest
+}
+
+/// Adds values times a factor, one by one.
+pub(crate) fn add_times<T: Copy + AddAssign + Mul<Output = T>>(values: &[T], factor: T, sum: &mut [T]) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += factor * *value;
+    }
 }
 
 /// Autocorrelation sums `Σ x[i] x[i + k]` for each lag `k` from 0 to `max_lag`. `max_lag` must be below the length;

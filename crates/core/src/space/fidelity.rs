@@ -8,8 +8,8 @@
 use crate::dsp::ar::comparison_frequencies;
 use crate::dsp::spectrum::{rms, welch};
 use crate::maths::statistics::mean;
-use crate::texture::blend::{Mode, mixture_psd, mixture_psd_toward};
-use crate::texture::plane::Plane;
+use crate::texture::blend::{Mode, mixture_psd, psd_of_grains};
+use crate::texture::plane::{Grain, Plane};
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons, Radians};
 
 /// Number of frequency channels.
@@ -190,8 +190,8 @@ pub fn level_error_db(a: &Profile, b: &Profile) -> f64 {
 /// `sqrt(Σ w² σ²)` for independent signals and `Σ w σ` with level compensation. For signals that share one excitation,
 /// it is the square root of the integral of the density. All parents must have the same sample rate.
 pub fn mixture_level_mps2(parents: &[(&Plane, f64)], mode: Mode, contact: Contact) -> f64 {
-    let levels: Vec<f64> = parents.iter().map(|(plane, w)| w * plane.at(contact).level_mps2).collect();
-    level_of(parents, mode, &levels, |frequencies| mixture_psd(parents, mode, contact, frequencies))
+    let grain = |(plane, w): &(&Plane, f64)| (plane.at(contact), *w);
+    level_of(&parents.iter().map(grain).collect::<Vec<_>>(), mode)
 }
 
 /// As [`mixture_level_mps2`], which is for a stroke across the lay of each plane, for a stroke in a direction on the pad:
@@ -202,28 +202,21 @@ pub fn mixture_level_toward_mps2(
     contact: Contact,
     direction: Radians,
 ) -> f64 {
-    let level = |(plane, w): &(&Plane, f64)| w * plane.toward(contact, direction).level_mps2;
-    let levels: Vec<f64> = parents.iter().map(level).collect();
-    level_of(parents, mode, &levels, |frequencies| {
-        mixture_psd_toward(parents, mode, contact, direction, frequencies)
-    })
+    let grain = |(plane, w): &(&Plane, f64)| (plane.toward(contact, direction), *w);
+    level_of(&parents.iter().map(grain).collect::<Vec<_>>(), mode)
 }
 
-/// Level of a mixture from the weighted levels of its parents, or from its density.
-fn level_of(
-    parents: &[(&Plane, f64)],
-    mode: Mode,
-    levels: &[f64],
-    psd: impl Fn(&[Hertz]) -> Vec<f64>,
-) -> f64 {
-    match (mode, parents) {
+/// Level of a mixture of grains with their weights.
+fn level_of(grains: &[(Grain, f64)], mode: Mode) -> f64 {
+    let levels = || grains.iter().map(|(grain, weight)| weight * grain.level_mps2);
+    match (mode, grains) {
         (_, []) => 0.0,
-        (_, [_]) | (Mode::Power, _) => levels.iter().sum(),
-        (Mode::Paper, _) => levels.iter().map(|l| l * l).sum::<f64>().sqrt(),
+        (_, [_]) | (Mode::Power, _) => levels().sum(),
+        (Mode::Paper, _) => levels().map(|l| l * l).sum::<f64>().sqrt(),
         (Mode::Shared | Mode::Parametric | Mode::Field, [(first, _), ..]) => {
-            let step_hz = 0.5 * first.rate().0 / N_STEPS as f64;
+            let step_hz = 0.5 * first.rate.0 / N_STEPS as f64;
             let frequencies: Vec<Hertz> = (0..=N_STEPS).map(|i| Hertz(i as f64 * step_hz)).collect();
-            let psd = psd(&frequencies);
+            let psd = psd_of_grains(grains, mode, &frequencies);
             let ends = 0.5 * (psd[0] + psd[N_STEPS]);
             (step_hz * (psd.iter().sum::<f64>() - ends)).sqrt()
         }

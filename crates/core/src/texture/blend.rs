@@ -76,7 +76,8 @@ pub fn mixture_psd_toward(
     psd_of_grains(&grains, mode, frequencies)
 }
 
-fn psd_of_grains(grains: &[(Grain, f64)], mode: Mode, frequencies: &[Hertz]) -> Vec<f64> {
+/// As [`mixture_psd`], of the grains of the parents.
+pub(crate) fn psd_of_grains(grains: &[(Grain, f64)], mode: Mode, frequencies: &[Hertz]) -> Vec<f64> {
     match mode {
         Mode::Paper => independent_psd(grains, 1.0, frequencies),
         Mode::Power => {

@@ -139,7 +139,7 @@ impl Plane {
         };
         let place = |c: Contact| [c.speed.0 / speed_max_mps, c.force.0 / force_max_n].map(snapped);
         let places: Vec<Xy> = texture.contacts().map(place).collect();
-        let (points, radial) = match texture.grain() {
+        let (mut points, radial) = match texture.grain() {
             texture::Grain::Measured { nodes, interpolation } => {
                 let radial = match interpolation {
                     Interpolation::RadialBasis => RadialGrain::new(nodes, &places),
@@ -155,13 +155,16 @@ impl Plane {
                 (places.into_iter().zip(nodes.iter().map(published)).collect(), None)
             }
         };
-        let (points, vertices): (Vec<Xy>, Vec<Values>) = points.into_iter().unzip();
-        let triangulated =
-            if radial.is_some() { Triangulation::new(&points) } else { Triangulation::in_order(&points) };
-        let triangulation = match triangulated {
-            Ok(triangulation) => triangulation,
-            Err(error) => unreachable!("the model checks keep relative coordinates in 0..1: {error}"),
-        };
+        let mut triangulation = triangulated(&points, radial.is_some());
+        if radial.is_none() && !is_published {
+            let fading = fading(&points, texture.n_nodes(), &triangulation);
+            // Most textures need none, and keep their triangles.
+            if !fading.is_empty() {
+                points.extend(fading);
+                triangulation = triangulated(&points, false);
+            }
+        }
+        let vertices = points.into_iter().map(|(_, values)| values).collect();
         let contacts = texture.contacts().map(|c| [c.speed.0, c.force.0]);
         let measured = contacts.filter(|c| c[0] > 0.0 && c[1] > 0.0).collect();
         Self {
@@ -281,7 +284,7 @@ impl Plane {
     }
 }
 
-/// Measured nodes, the boundary around them, and the nodes of the fade to it.
+/// Measured nodes and the boundary around them.
 fn closed(nodes: &[GrainNode], places: &[Xy], highest: Contact) -> Vec<(Xy, Values)> {
     let measured = nodes.iter().map(|n| Values::measured(n.lsf.clone(), n.level_mps2));
     let mut points: Vec<(Xy, Values)> = places.iter().copied().zip(measured).collect();
@@ -291,9 +294,17 @@ fn closed(nodes: &[GrainNode], places: &[Xy], highest: Contact) -> Vec<(Xy, Valu
         let place = [at.speed.0 / highest.speed.0, at.force.0 / highest.force.0];
         points.push((place, Values::measured(node.lsf.clone(), if silent { 0.0 } else { node.level_mps2 })));
     }
-    let fading = fading(&points, nodes.len());
-    points.extend(fading);
     points
+}
+
+/// Triangles over nodes in their order, or over the corners of a radial basis.
+fn triangulated(points: &[(Xy, Values)], is_radial: bool) -> Triangulation {
+    let places: Vec<Xy> = points.iter().map(|(at, _)| *at).collect();
+    let made = if is_radial { Triangulation::new(&places) } else { Triangulation::in_order(&places) };
+    match made {
+        Ok(triangulation) => triangulation,
+        Err(error) => unreachable!("the model checks keep relative coordinates in 0..1: {error}"),
+    }
 }
 
 fn published(node: &PublishedNode) -> Values {

@@ -41,7 +41,8 @@ pub struct SteadyStickSlip {
 /// multiplies its acceleration.
 pub fn steady_stick_slip(parents: &[(&Plane, f64)], contact: Contact) -> Option<SteadyStickSlip> {
     let rate = parents.first()?.0.rate();
-    let (friction, weight) = mean_friction(parents)?;
+    let frictions = parents.iter().filter_map(|(plane, weight)| Some((plane.friction()?, *weight as f32)));
+    let (friction, weight) = Friction::mean(frictions)?;
     let contact = SynthContact { speed_mps: contact.speed.0 as f32, force_n: contact.force.0 as f32 };
     let n_settling = (SETTLING_SECS * rate.0) as usize;
     let mut signal = vec![0.0_f32; n_settling + (ANALYZED_SECS * rate.0) as usize];
@@ -60,24 +61,6 @@ pub fn steady_stick_slip(parents: &[(&Plane, f64)], contact: Contact) -> Option<
     let audible = density.iter().filter(|(frequency, _)| frequency.0 >= LOWEST.0);
     let (frequency, _) = audible.max_by(|a, b| velocity(a).total_cmp(&velocity(b)))?;
     Some(SteadyStickSlip { frequency: *frequency, rms_mps2, density })
-}
-
-/// Mean friction of the planes that have one, and the sum of their weights; `None` without friction.
-fn mean_friction(parents: &[(&Plane, f64)]) -> Option<(Friction, f32)> {
-    let frictions = parents.iter().filter_map(|(plane, weight)| Some((plane.friction()?, *weight as f32)));
-    let (mut sum, mut sum_of_weights) = (Friction::default(), 0.0_f32);
-    for (friction, weight) in frictions {
-        sum.kinetic += weight * friction.kinetic;
-        sum.static_ratio += weight * friction.static_ratio;
-        sum.stribeck_speed_mps += weight * friction.stribeck_speed_mps;
-        sum_of_weights += weight;
-    }
-    let mean = Friction {
-        kinetic: sum.kinetic / sum_of_weights,
-        static_ratio: sum.static_ratio / sum_of_weights,
-        stribeck_speed_mps: sum.stribeck_speed_mps / sum_of_weights,
-    };
-    (sum_of_weights > 0.0).then_some((mean, sum_of_weights))
 }
 
 #[cfg(test)]

@@ -3,25 +3,17 @@
 //! The Kalman filter assumes reports that follow each other within the time in which a hand changes its speed. Between
 //! reports further apart it overshoots: it takes the whole distance for the beginning of an acceleration.
 
+use crate::track::PenSample;
+
 /// Usual report interval above which speeds come from distances, in seconds. Pens report at least every 20 ms, for which
 /// their last speed is held.
 pub(super) const COARSE_INTERVAL_SECS: f64 = 0.025;
 
-/// Position at a time.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Fix {
-    pub(super) time_secs: f64,
-    pub(super) x_m: f64,
-    pub(super) y_m: f64,
-    /// Whether the tip touches.
-    pub(super) touching: bool,
-}
-
 /// Returns the speed in m/s at each position: the mean of the speeds on the ways before and after it, each weighted by
 /// the duration of the other, which is the second-order difference for unequal intervals. At the ends of a contact it is
 /// the speed on the only way, and zero without one. Ways last at most `gap_secs`. Constant motion has exactly its speed.
-pub(super) fn coarse_speeds(fixes: &[Fix], gap_secs: f64) -> Vec<f64> {
-    let way = |pair: &[Fix]| {
+pub(super) fn coarse_speeds(fixes: &[PenSample], gap_secs: f64) -> Vec<f64> {
+    let way = |pair: &[PenSample]| {
         let [from, to] = pair else { return None };
         let secs = to.time_secs - from.time_secs;
         let is_way = from.touching && to.touching && secs > 0.0 && secs <= gap_secs;
@@ -43,13 +35,18 @@ pub(super) fn coarse_speeds(fixes: &[Fix], gap_secs: f64) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Fix, coarse_speeds};
+    use super::{PenSample, coarse_speeds};
 
     /// A contact with unequal intervals on x = t², whose second-order difference is exact: 2 t.
     #[test]
     fn a_steady_acceleration_has_its_exact_speed_between_unequal_ways() {
         let times = [0.0, 0.1, 0.4, 0.5, 1.5];
-        let fix = |time_secs: f64| Fix { time_secs, x_m: time_secs * time_secs, y_m: 0.0, touching: true };
+        let fix = |time_secs: f64| PenSample {
+            time_secs,
+            x_m: time_secs * time_secs,
+            touching: true,
+            ..PenSample::default()
+        };
         let speeds = coarse_speeds(&times.map(fix), 2.0);
         for (time_secs, speed) in times.iter().zip(&speeds).take(4).skip(1) {
             assert!((speed - 2.0 * time_secs).abs() < 1e-12, "{speed} at {time_secs} s");
@@ -60,7 +57,12 @@ mod tests {
 
     #[test]
     fn lifts_and_gaps_end_a_contact() {
-        let fix = |time_secs: f64, x_m: f64, touching: bool| Fix { time_secs, x_m, y_m: 0.0, touching };
+        let fix = |time_secs: f64, x_m: f64, touching: bool| PenSample {
+            time_secs,
+            x_m,
+            touching,
+            ..PenSample::default()
+        };
         let fixes = [
             fix(0.0, 0.0, true),
             fix(1.0, 0.1, true),

@@ -24,10 +24,8 @@ pub(super) struct Columns {
     pub(super) touching: Option<usize>,
     /// Speed towards the surface.
     pub(super) speed_normal: Option<usize>,
-    /// One unit of this speed, in m/s.
-    pub(super) speed_normal_mps: f64,
-    /// Whether the header states neither its unit nor that of speed.
-    speed_normal_is_assumed: bool,
+    /// One unit of this speed in m/s, if the header states it, or the unit of speed or position.
+    speed_normal_si: Option<f64>,
     /// Whether no acceleration recording has columns of these names.
     pub(super) are_of_a_stroke_only: bool,
     /// Indices of speed and force, or of x, y and pressure or force.
@@ -93,8 +91,7 @@ impl Columns {
             time_secs: names[time].1,
             touching,
             speed_normal,
-            speed_normal_mps: speed_normal_si.unwrap_or(USUAL_SPEED.si()),
-            speed_normal_is_assumed: speed_normal.is_some() && speed_normal_si.is_none(),
+            speed_normal_si,
             are_of_a_stroke_only: !has_axes
                 || touching.is_some()
                 || speed_normal.is_some()
@@ -122,8 +119,7 @@ impl Columns {
             time_secs: None,
             touching: None,
             speed_normal: None,
-            speed_normal_mps: USUAL_SPEED.si(),
-            speed_normal_is_assumed: false,
+            speed_normal_si: None,
             are_of_a_stroke_only: false,
             units_si: vec![None; values.len()],
             values,
@@ -165,6 +161,11 @@ impl Columns {
         si
     }
 
+    /// One unit of the speed towards the surface, in m/s.
+    pub(super) fn speed_normal_mps(&self) -> f64 {
+        self.speed_normal_si.unwrap_or(USUAL_SPEED.si())
+    }
+
     /// Whether the unit of speed is assumed.
     pub(super) fn speed_is_assumed(&self) -> bool {
         self.units().any(|(name, _, _, is_assumed)| name == "speed" && is_assumed)
@@ -178,7 +179,7 @@ impl Columns {
             .filter(|(_, _, _, is_assumed)| self.has_header && *is_assumed)
             .map(|(name, _, unit, _)| format!("{name} in {unit}"))
             .collect();
-        if self.speed_normal_is_assumed {
+        if self.speed_normal.is_some() && self.speed_normal_si.is_none() {
             assumed.push(format!("speed_normal in {}", USUAL_SPEED.name()));
         }
         let as_in = if self.kind == Kind::Contacts {

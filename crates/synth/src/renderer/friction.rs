@@ -33,22 +33,14 @@ impl MixedFriction {
         contacts: (Contact, Contact),
         out: &mut [f32],
     ) {
-        let (mut sum, mut sum_of_weights, mut end) = (Friction::default(), 0.0, 0.0);
-        for (friction, weights) in parts {
-            // A texture that fades in or out has a weight at one end of the tick only.
-            let weight = weights.0 + weights.1;
-            sum.kinetic += weight * friction.kinetic;
-            sum.static_ratio += weight * friction.static_ratio;
-            sum.stribeck_speed_mps += weight * friction.stribeck_speed_mps;
-            sum_of_weights += weight;
+        let mut end = 0.0;
+        let parts = parts.map(|(friction, weights)| {
             end += weights.1;
-        }
-        if sum_of_weights > 0.0 {
-            self.mean = Friction {
-                kinetic: sum.kinetic / sum_of_weights,
-                static_ratio: sum.static_ratio / sum_of_weights,
-                stribeck_speed_mps: sum.stribeck_speed_mps / sum_of_weights,
-            };
+            // A texture that fades in or out has a weight at one end of the tick only.
+            (friction, weights.0 + weights.1)
+        });
+        if let Some((mean, _)) = Friction::mean(parts) {
+            self.mean = mean;
         }
         let weights = (self.weight, end);
         self.weight = end;

@@ -406,9 +406,9 @@ impl Batch {
 
     /// Textures that would be added to `library` now.
     /// A texture keeps its position only if it is comparable: from the same source as the others. In a library with
-    /// positions, its sample rate must also not exceed `space_rate_hz` (Hz). With `are_placed`, recordings get estimated
-    /// positions.
-    pub fn entries(&self, library: &Library, space_rate_hz: f64, are_placed: bool) -> Vec<Arc<TextureEntry>> {
+    /// positions, its sample rate must also not exceed `space_rate_hz` (Hz). Recordings get estimated
+    /// positions if [`Batch::place_in`] says so.
+    pub fn entries(&self, library: &Library, space_rate_hz: f64) -> Vec<Arc<TextureEntry>> {
         let mut ids: Vec<String> = library.textures.iter().map(|texture| texture.id.clone()).collect();
         // Estimated positions follow from other positions, so they say nothing about the source.
         let mut sources = library.label_sources();
@@ -435,7 +435,7 @@ impl Batch {
             let recordings: Vec<&str> = self.drawn_of(draft).map(|(file, _)| file.name.as_str()).collect();
             let id = claim_id(&id_from_name(&draft.name), &mut ids);
             let Some(mut entry) = draft.entry(id, &recordings) else { continue };
-            if are_placed && entry.model.rate().0 <= space_rate_hz {
+            if self.are_placed() && entry.model.rate().0 <= space_rate_hz {
                 place_by_estimate(&mut entry, library);
             }
             out.push(Arc::new(entry));

@@ -11,10 +11,11 @@ use crate::sheets::import::draft::FitState;
 use crate::sheets::import::fit_ui::{DETAILS_WIDTH, adjust_ui, fit_ui, list_ui};
 use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::plane_plot::{Dot, color_of_gfc, gfc_legend_ui, plane_plot};
-use crate::sheets::import::questions_ui::{questions_ui, sentence};
+use crate::sheets::import::questions_ui::questions_ui;
 use crate::sheets::import::recording_state::RecordingState;
 use crate::sheets::import::trace_plot::trace_plot;
 use crate::strings::import as strings;
+use crate::strings::sentence;
 
 /// Minimum height of the traces, in points.
 const TRACES: f32 = 196.0;

@@ -8,8 +8,8 @@ use crate::look::list::ShowList as _;
 use crate::look::theme::{GAP, tokens};
 use crate::sheets::import::draft::{Draft, FitState};
 use crate::sheets::import::import_context::ImportContext;
-use crate::sheets::import::questions_ui::sentence;
 use crate::strings::import as strings;
+use crate::strings::sentence;
 
 /// Width of the column of results, in points.
 pub(super) const DETAILS_WIDTH: f32 = 268.0;

@@ -10,6 +10,7 @@ use crate::look::list::ShowList as _;
 use crate::look::theme::{GAP, RADIUS, tokens};
 use crate::sheets::import::recording_state::RecordingState;
 use crate::strings::import as strings;
+use crate::strings::sentence;
 
 /// Width of an answer control, in points.
 const ANSWER_WIDTH: f32 = 128.0;
@@ -95,12 +96,6 @@ fn question_ui(ui: &mut Ui, question: &Question, state: Given<'_>, typed: &mut T
 fn is_wide(question: &Question) -> bool {
     let takes_constant = matches!(question.what, Ask::Speed | Ask::Force) && !question.choices.is_empty();
     takes_constant || question.what == Ask::Channels
-}
-
-/// Text with a capital first letter.
-pub(crate) fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// Draws a choice, a field, or both if a constant is accepted; returns a new answer.

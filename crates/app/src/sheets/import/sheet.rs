@@ -11,7 +11,7 @@ use crate::browse::{Asked, Browse};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
 use crate::look::motion::busy_ui;
-use crate::look::sheet_frame::{is_left, sheet};
+use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::sheets::folders_ui::folders_ui;
 use crate::sheets::import::batch::{Batch, Content, State};
@@ -19,10 +19,10 @@ use crate::sheets::import::draft_ui::draft_ui;
 use crate::sheets::import::files_ui::files_ui;
 use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::model_ui::model_ui;
-use crate::sheets::import::questions_ui::sentence;
 use crate::state::edit::Edit;
 use crate::state::source::{Source, paths_in};
 use crate::strings::import as strings;
+use crate::strings::sentence;
 
 /// Width of the list of files, in points.
 const FILES_WIDTH: f32 = 212.0;
@@ -108,9 +108,6 @@ impl ImportSheet {
         }
         // The photos find their places behind the sheet. It stays for other files.
         if self.batch.has_only_photos() {
-            commands.push(Command::CloseSheet);
-        }
-        if is_left(ctx) {
             commands.push(Command::CloseSheet);
         }
         commands
@@ -243,8 +240,7 @@ impl ImportSheet {
         }));
         let accept = if n_ready > 0 { accept.fill(t.accent) } else { accept };
         if ui.add_enabled(n_ready > 0, accept).clicked() {
-            let are_placed = self.batch.are_placed();
-            let entries = self.batch.entries(around.library, around.space_rate_hz, are_placed);
+            let entries = self.batch.entries(around.library, around.space_rate_hz);
             commands.push(Command::Edit(Edit::AddTextures(entries)));
             commands.push(Command::CloseSheet);
         }

@@ -1,6 +1,7 @@
 //! Cross-validation: comparison of segments with models fitted without them.
 
 use crate::dsp::spectrum::goodness_of_fit;
+use crate::maths::sums::add_times;
 use crate::recording::fit::pieces::Piece;
 use crate::recording::fit::surface::{Surface, distance};
 use crate::recording::fit::{Comparison, FitError, HIGH_PASS, smear};
@@ -141,9 +142,7 @@ fn pooled(
     let sum = |which: usize| -> Vec<f64> {
         let mut sum = vec![0.0; spectra[of][which].len()];
         for i in pool {
-            for (sum, value) in sum.iter_mut().zip(&spectra[*i][which]) {
-                *sum += scale(*i) * value;
-            }
+            add_times(&spectra[*i][which], scale(*i), &mut sum);
         }
         sum
     };

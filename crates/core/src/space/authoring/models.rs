@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::maths::sums::add_times;
 use crate::space::authoring::LEAST_WEIGHT;
 use crate::space::authoring::layers::{mean_friction, mean_stick_slip, mean_tap};
 use crate::space::field::{Field, Site};
@@ -236,12 +237,8 @@ impl Models {
         let first = &self.sites[0].grain;
         let (mut lsf, mut ln_level) = (vec![0.0; first.lsf.len()], vec![0.0; first.ln_level.len()]);
         for (grain, weight) in grains {
-            for (sum, w) in lsf.iter_mut().zip(&grain.lsf) {
-                *sum += weight * w;
-            }
-            for (sum, l) in ln_level.iter_mut().zip(&grain.ln_level) {
-                *sum += weight * l;
-            }
+            add_times(&grain.lsf, weight, &mut lsf);
+            add_times(&grain.ln_level, weight, &mut ln_level);
         }
         self.sampling.nodes_of_frequencies(&lsf, &ln_level)
     }

@@ -9,6 +9,7 @@
 //! A texture whose lay is rotated against that of the point contributes a part of its difference across it, too
 //! ([`crate::space::mean_axes`]).
 
+use crate::maths::sums::add_times;
 use crate::space::field::Site;
 use crate::space::mean_axes::MeanAxes;
 
@@ -61,7 +62,7 @@ impl Anisotropy {
             for Directional { index, turn_rad, difference } in &self.sites {
                 let weight = weights.get(*index).map_or(0.0, |weight| *weight);
                 let share = axes.shares_along(*turn_rad)[direction];
-                add(difference, (weight * share) as f32, &mut sum);
+                add_times(difference, (weight * share) as f32, &mut sum);
             }
             for (sum, (low, high)) in sum.iter_mut().zip(&self.limits) {
                 *sum = sum.clamp(*low, *high);
@@ -75,13 +76,6 @@ impl Anisotropy {
             }
             sum
         })
-    }
-}
-
-/// Adds values times a factor.
-fn add(values: &[f32], factor: f32, sum: &mut [f32]) {
-    for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += factor * value;
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::dsp::contact_patch::patch_gain;
 use crate::dsp::dft321::check_run;
 use crate::dsp::spectrum::rms;
+use crate::dsp::square_transform::transpose;
 use crate::maths::rng::Random;
 use realfft::RealFftPlanner;
 use rustfft::num_complex::Complex;
@@ -46,8 +47,11 @@ pub(super) fn dilate(heights_m: &[f64], step_m: f64, tip_radius_m: f64) -> Vec<f
 /// Dilates the rows, then the columns. Together they have a cap of `r²/2R + (x⁴ + y⁴)/8R³` instead of `r²/2R + r⁴/8R³`, a
 /// difference far below the heights of a texture.
 pub(super) fn dilate_tile(heights_m: &[f64], n_cells: usize, step_m: f64, tip_radius_m: f64) -> Vec<f64> {
-    let rows = dilate_rows(heights_m, n_cells, step_m, tip_radius_m);
-    transposed(&dilate_rows(&transposed(&rows, n_cells), n_cells, step_m, tip_radius_m), n_cells)
+    let mut tip_m = dilate_rows(heights_m, n_cells, step_m, tip_radius_m);
+    transpose(&mut tip_m, n_cells);
+    tip_m = dilate_rows(&tip_m, n_cells, step_m, tip_radius_m);
+    transpose(&mut tip_m, n_cells);
+    tip_m
 }
 
 /// Dilation by a ball along each row of a periodic tile.
@@ -59,10 +63,6 @@ fn dilate_rows(heights_m: &[f64], n_cells: usize, step_m: f64, tip_radius_m: f64
         dilate(&around, step_m, tip_radius_m)[margin..margin + n_cells].to_vec()
     };
     heights_m.chunks_exact(n_cells).flat_map(dilated).collect()
-}
-
-fn transposed(values: &[f64], n_cells: usize) -> Vec<f64> {
-    (0..n_cells * n_cells).map(|i| values[i % n_cells * n_cells + i / n_cells]).collect()
 }
 
 /// Profile averaged over the contact patch with Hertz pressure weighting.

@@ -1,6 +1,6 @@
 //! The self-affine fractal part of a tile, and the profile detail that is too fine for the tile.
 
-use crate::dsp::square_transform::transpose;
+use crate::dsp::square_transform::{self, transpose};
 use crate::maths::rng::Random;
 use crate::surfaces::height_field::Tile;
 use crate::surfaces::material::Material;
@@ -157,7 +157,7 @@ pub(super) fn smooth_pair(tile: Tile, scale_m: f64, stretch: f64, seed: u64) -> 
 fn gaussian_tile(tile: Tile, seed: u64, density: impl Fn(f64, f64) -> f64) -> Vec<Complex<f64>> {
     let n = tile.n_cells;
     let unit = 1.0 / tile.side_m();
-    let wave_number = |i: usize| if i <= n / 2 { i as f64 * unit } else { (i as f64 - n as f64) * unit };
+    let wave_number = |i: usize| square_transform::wave_number(i, n) as f64 * unit;
     let mut random = Random::new(seed);
     // Filled column by column in the spectrum, so that one transposition leaves rows of the tile.
     let mut field = vec![Complex::new(0.0, 0.0); n * n];

@@ -6,6 +6,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use super::decibels;
+use crate::dsp::square_transform::{transpose, wave_number};
 use crate::maths::statistics::mean;
 
 /// Number of features: slope, level, deviation from the line, directionality.
@@ -28,7 +29,7 @@ pub(super) fn spectral(gray: &[f64], side: usize) -> [f64; N_OF_SPECTRUM] {
     let octaves = (highest / LOWEST).log2();
     let (mut rings, mut directions) = ([(0.0, 0.0); N_RINGS], [(0.0, 0.0); N_DIRECTIONS]);
     for (index, power) in power.iter().enumerate() {
-        let signed = |i: usize| if i > side / 2 { i as f64 - side as f64 } else { i as f64 };
+        let signed = |i: usize| wave_number(i, side) as f64;
         let (fx, fy) = (signed(index % side), signed(index / side));
         let frequency = fx.hypot(fy);
         if !(LOWEST..highest).contains(&frequency) {
@@ -85,12 +86,4 @@ fn power(gray: &[f64], side: usize) -> Vec<f64> {
     // Normalized so that resolution does not change the power of a picture with the same contrast.
     let squares: f64 = (0..side * side).map(|i| weight(i).powi(2)).sum();
     values.iter().map(|value| value.norm_sqr() / squares).collect()
-}
-
-fn transpose(values: &mut [Complex<f64>], side: usize) {
-    for y in 0..side {
-        for x in 0..y {
-            values.swap(y * side + x, x * side + y);
-        }
-    }
 }

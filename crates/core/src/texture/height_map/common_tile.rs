@@ -22,6 +22,7 @@ use std::sync::{Arc, OnceLock};
 use rustfft::num_complex::Complex;
 
 use crate::dsp::square_transform::{coefficients, index_of, series, wave_number};
+use crate::maths::sums::add_times;
 use crate::texture::height_map::levels::{HeightMapLevels, KeptLevels};
 use crate::texture::height_map::quarter_turn::{quarter_turned, quarter_turns};
 use crate::texture::height_map::{
@@ -106,10 +107,10 @@ impl CommonTile {
         for (fitted, quarter, factor) in turned.filter(|(.., factor)| *factor != 0.0) {
             let (own_m, own_levels) = (fitted.heights_m(n), fitted.levels());
             if quarter == 0 {
-                add(own_m, factor, &mut heights_m);
+                add_times(own_m, factor, &mut heights_m);
                 levels.push((own_levels, factor as f32));
             } else {
-                add(&quarter_turned(own_m, quarter), factor, &mut heights_m);
+                add_times(&quarter_turned(own_m, quarter), factor, &mut heights_m);
                 levels.push((Arc::new(own_levels.turned(quarter)), factor as f32));
             }
         }
@@ -264,13 +265,6 @@ fn faded(weight: f64) -> f64 {
         return 0.0;
     }
     weight * (weight.abs() / LEAST_WEIGHT - 1.0).clamp(0.0, 1.0)
-}
-
-/// Adds values times a factor.
-fn add(values: &[f64], factor: f64, sum: &mut [f64]) {
-    for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += factor * value;
-    }
 }
 
 /// Geometric mean of the sides of the parts in m, by the magnitude of weight; exact if all are those of the first one.

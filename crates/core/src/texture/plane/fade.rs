@@ -16,16 +16,18 @@ use crate::texture::MIN_NODE_DISTANCE;
 use crate::texture::plane::values::Values;
 
 /// Returns the nodes that remove the silent edges of `points`, whose first `n_measured` are the measured nodes; the others
-/// are the boundary. Coordinates are relative to the highest speed and force.
+/// are the boundary, and whose triangles are given. Coordinates are relative to the highest speed and force.
 ///
 /// A node that would lie closer than [`MIN_NODE_DISTANCE`] to an axis or to another node is omitted.
-pub(super) fn fading(points: &[(Xy, Values)], n_measured: usize) -> Vec<(Xy, Values)> {
-    let places: Vec<Xy> = points.iter().map(|(at, _)| *at).collect();
-    let Ok(triangulation) = Triangulation::in_order(&places) else { return Vec::new() };
+pub(super) fn fading(
+    points: &[(Xy, Values)],
+    n_measured: usize,
+    triangulation: &Triangulation,
+) -> Vec<(Xy, Values)> {
     let measured = &points[..n_measured.min(points.len())];
     let mut nodes: Vec<(Xy, Values)> = Vec::new();
-    for (on_speed, on_force) in silent_edges(&triangulation, &places) {
-        let ends = [places[on_speed][0], places[on_force][1]];
+    for (on_speed, on_force) in silent_edges(triangulation, points) {
+        let ends = [points[on_speed].0[0], points[on_force].0[1]];
         let Some((to, values)) = nearest(measured, ends.map(|end| 0.5 * end)) else { continue };
         let share = 1.0 / (to[0] / ends[0] + to[1] / ends[1]);
         let at = to.map(|coordinate| share * coordinate);
@@ -41,9 +43,9 @@ pub(super) fn fading(points: &[(Xy, Values)], n_measured: usize) -> Vec<(Xy, Val
 }
 
 /// Edges from the axis of zero force to the axis of zero speed, in the order of their ends.
-fn silent_edges(triangulation: &Triangulation, places: &[Xy]) -> BTreeSet<(usize, usize)> {
-    let is_on_speed = |index: usize| places[index][1] == 0.0 && places[index][0] > 0.0;
-    let is_on_force = |index: usize| places[index][0] == 0.0 && places[index][1] > 0.0;
+fn silent_edges(triangulation: &Triangulation, points: &[(Xy, Values)]) -> BTreeSet<(usize, usize)> {
+    let is_on_speed = |index: usize| points[index].0[1] == 0.0 && points[index].0[0] > 0.0;
+    let is_on_force = |index: usize| points[index].0[0] == 0.0 && points[index].0[1] > 0.0;
     let edges = triangulation.triangles().flat_map(|[a, b, c]| [(a, b), (b, c), (c, a)]);
     // Each edge inside is met in both directions.
     edges.flat_map(|(a, b)| [(a, b), (b, a)]).filter(|(a, b)| is_on_speed(*a) && is_on_force(*b)).collect()

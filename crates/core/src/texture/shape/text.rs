@@ -24,6 +24,13 @@ impl fmt::Display for Shape {
     }
 }
 
+impl Shape {
+    /// The shape as text; `None` if it is neutral.
+    pub fn text(&self) -> Option<String> {
+        (!self.is_neutral()).then(|| self.to_string())
+    }
+}
+
 impl FromStr for Shape {
     type Err = ShapeError;
 

@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use shagreen_synth::height_map::{LEAST_SIDE, PATCH_FORCES, length};
 
+use crate::maths::sums::add_times;
 use crate::texture::height_map::HeightMapOptions;
 use crate::texture::height_map::levels::HeightMapLevels;
 use crate::texture::height_map::quarter_turn::quarter_turned;
@@ -28,7 +29,7 @@ impl HeightMapLevels {
                 // The coarsest octaves are the last ones.
                 let own = levels.of_patch(patch);
                 let finer = sum.len() - own.len();
-                add(own, *factor, &mut sum[finer..]);
+                add_times(own, *factor, &mut sum[finer..]);
             }
             add_beyond_octave_0(parts, patch, sum);
         }
@@ -64,21 +65,14 @@ fn add_beyond_octave_0(parts: &[(Arc<HeightMapLevels>, f32)], patch: usize, sum:
     while length(m) < sum.len() {
         for (levels, factor) in parts.iter().filter(|(levels, _)| levels.n == m) {
             ended.resize(m * m, 0.0);
-            add(&levels.of_patch(patch)[..m * m], *factor, &mut ended);
+            add_times(&levels.of_patch(patch)[..m * m], *factor, &mut ended);
         }
         if !ended.is_empty() {
             ended = on_half_the_spacing(&ended, m);
         }
         m *= 2;
         let begin = sum.len() - length(m);
-        add(&ended, 1.0, &mut sum[begin..]);
-    }
-}
-
-/// Adds values times a factor.
-fn add(values: &[f32], factor: f32, sum: &mut [f32]) {
-    for (sum, value) in sum.iter_mut().zip(values) {
-        *sum += factor * value;
+        add_times(&ended, 1.0, &mut sum[begin..]);
     }
 }
 
