@@ -407,7 +407,7 @@ impl Batch {
     /// Textures that would be added to `library` now.
     /// A texture keeps its position only if it is comparable: from the same source as the others. In a library with
     /// positions, its sample rate must also not exceed `space_rate_hz` (Hz). Recordings get estimated
-    /// positions if [`Batch::place_in`] says so.
+    /// positions if `place_in` says so.
     pub fn entries(&self, library: &Library, space_rate_hz: f64) -> Vec<Arc<TextureEntry>> {
         let mut ids: Vec<String> = library.textures.iter().map(|texture| texture.id.clone()).collect();
         // Estimated positions follow from other positions, so they say nothing about the source.
