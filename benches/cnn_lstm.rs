@@ -43,7 +43,7 @@ fn main() {
         samples[begin..end].iter().skip(channel).step_by(N_IN_FILE).copied().collect()
     };
     let stroke = |segments: std::ops::Range<usize>| Stroke {
-        accel_mps2: channel(segments.clone(), 0),
+        axes_mps2: vec![channel(segments.clone(), 0)],
         speed_mps: channel(segments.clone(), 1),
         force_n: channel(segments, 2),
     };

@@ -15,6 +15,7 @@ mod calibrate_live;
 mod calibrate_recording;
 mod calibrate_result;
 mod calibrate_sweep;
+mod class_figures;
 mod codec_decode;
 mod codec_encode;
 mod devices;
@@ -33,6 +34,7 @@ mod import;
 mod import_directional;
 mod import_hatt;
 mod import_recording;
+mod labelled_photos;
 mod latency;
 mod latency_onsets;
 mod library_args;
@@ -46,11 +48,13 @@ mod model_add;
 mod model_fetch;
 mod model_folder;
 mod model_list;
+mod model_show;
 mod motion;
 mod output;
 mod own_folder;
 mod play;
 mod predict_attributes;
+mod prediction_figures;
 mod profile_source;
 mod progress;
 mod project_gallery;
@@ -64,12 +68,14 @@ mod recording_answers;
 mod recording_source;
 mod render;
 mod rig;
+mod seen_json;
 mod shape_args;
 mod signal_source;
 mod space_build;
 mod space_judgments;
 mod space_panel;
 mod space_place;
+mod space_questionnaire;
 mod spatial_analyse;
 mod spatial_make;
 mod spatial_reconstruct;
@@ -79,8 +85,10 @@ mod sweep_checks;
 mod target;
 mod terminal_line;
 mod texture_path;
+mod texture_pictures;
 mod texture_psd;
 mod train_attributes;
+mod train_labelled_photos;
 mod train_networks;
 mod train_photo;
 mod watch;
@@ -121,7 +129,8 @@ enum Command {
     #[command(subcommand)]
     Texture(TextureCommand),
     Export(export::Args),
-    /// Builds a perceptual space of textures from sorts and ratings, simulates raters, or reads positions from a table.
+    /// Builds a space of textures from ratings, with or without sorts, writes questionnaires, simulates raters, or reads
+    /// positions from a table.
     #[command(subcommand)]
     Space(SpaceCommand),
     /// Measures the errors of interpolation and codec on signals, without human participants.
@@ -150,7 +159,7 @@ enum Command {
     /// Trains attribute predictors and reports their leave-one-texture-out error.
     #[command(subcommand)]
     Train(TrainCommand),
-    /// Registers, downloads and lists third-party neural networks.
+    /// Registers, downloads and lists third-party neural networks, and shows the cards of trained models.
     #[command(subcommand)]
     Model(ModelCommand),
 }
@@ -171,6 +180,7 @@ enum ModelCommand {
     Add(model_add::Args),
     Fetch(model_fetch::Args),
     List(model_list::Args),
+    Show(model_show::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -221,6 +231,7 @@ enum SpaceCommand {
     Build(Box<space_build::Args>),
     Panel(space_panel::Args),
     Place(space_place::Args),
+    Questionnaire(space_questionnaire::Args),
 }
 
 #[derive(clap::Subcommand)]
@@ -272,6 +283,7 @@ pub(crate) fn run(open_window: OpenWindow) -> ExitCode {
         Some(Command::Space(SpaceCommand::Build(args))) => space_build::run(args),
         Some(Command::Space(SpaceCommand::Panel(args))) => space_panel::run(args),
         Some(Command::Space(SpaceCommand::Place(args))) => space_place::run(args),
+        Some(Command::Space(SpaceCommand::Questionnaire(args))) => space_questionnaire::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
         Some(Command::Evaluate(EvaluateCommand::LeaveOneOut(args))) => evaluate::run(args),
         Some(Command::Texture(TextureCommand::Path(args))) => texture_path::run(args),
@@ -297,6 +309,7 @@ pub(crate) fn run(open_window: OpenWindow) -> ExitCode {
         Some(Command::Model(ModelCommand::Add(args))) => model_add::run(args),
         Some(Command::Model(ModelCommand::Fetch(args))) => model_fetch::run(args),
         Some(Command::Model(ModelCommand::List(args))) => model_list::run(args),
+        Some(Command::Model(ModelCommand::Show(args))) => model_show::run(args),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

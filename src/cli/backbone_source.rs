@@ -23,6 +23,11 @@ impl BackboneArgs {
     pub(crate) fn path(&self) -> Option<&Path> {
         self.backbone.as_deref().filter(|path| !is_none(path))
     }
+
+    /// Returns whether a file or "none" was named.
+    pub(crate) fn is_given(&self) -> bool {
+        self.backbone.is_some()
+    }
 }
 
 fn is_none(path: &Path) -> bool {

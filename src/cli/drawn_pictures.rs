@@ -10,6 +10,7 @@ use shagreen_core::surfaces::starter::{LabelSpan, Labels, pictured};
 use shagreen_formats::atomic;
 use shagreen_formats::bounded_file::FileKind;
 use shagreen_learn::backbone::Backbone;
+use shagreen_learn::picture_model::FeatureExtractor;
 use shagreen_learn::picture_predictor::{LookingError, see};
 use shagreen_learn::picture_set::{PictureSet, Seen};
 
@@ -94,6 +95,13 @@ pub(crate) fn see_all(backbone: Option<&Backbone>, picture: &Picture) -> Result<
         features.extend(see(backbone, picture)?);
     }
     Ok(features)
+}
+
+/// Returns the part of features from [`see_all`] that this extractor gives.
+pub(crate) fn seen_by(eyes: &FeatureExtractor, seen: &Seen) -> Seen {
+    let (statistics, network) = seen.features.split_at(N_FEATURES);
+    let features = if *eyes == FeatureExtractor::Statistics { statistics } else { network };
+    Seen { features: features.to_vec(), labels: seen.labels.clone() }
 }
 
 fn look_at(number: usize, seed: u64, backbone: Option<&Backbone>) -> anyhow::Result<Seen> {

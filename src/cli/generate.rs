@@ -7,14 +7,15 @@ use anyhow::{Context as _, bail, ensure};
 use serde_json::{Value, json};
 use shagreen_core::maths::gaussian_process::Estimate;
 use shagreen_core::space::{LabelSource, SpacePoint};
-use shagreen_core::surfaces::generated::{CombinedEstimate, place};
+use shagreen_core::surfaces::generated::{CombinedEstimate, Placed, Witness, place};
+use shagreen_core::surfaces::picture_doubts::PictureDoubt;
 use shagreen_core::surfaces::prompt::{PromptInterpretation, interpret, title};
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::lexicon_toml::built_in_lexicon;
 use shagreen_formats::library::{Library, TextureEntry, write_library};
-use shagreen_formats::picture::{Rgb, encode_heights, encode_jpeg, encode_png};
+use shagreen_formats::picture::{Picture, Rgb, encode_heights, encode_jpeg, encode_png};
 use shagreen_formats::project::{AuthoredTexture, EXTENSION, write_project};
 use shagreen_learn::diffusion::{LONGEST_SIDE, Wish};
 use shagreen_learn::model_file::sha256_of;
@@ -25,13 +26,15 @@ use crate::cli::generated_texture::{project_of_picture, texture_of_picture};
 use crate::cli::model_folder::model_folder;
 use crate::cli::output;
 use crate::cli::progress::Progress;
-use crate::cli::prompt_summary::prompt_summary;
+use crate::cli::prompt_summary::{disagreement, prompt_summary};
+use crate::cli::seen_json::{doubts_json, materials_json};
 use shagreen_studio::figure_files::{check_together, write_together};
 use shagreen_studio::file;
 use shagreen_studio::generate::{
     GeneratedPicture, PicturedRelief, generate_by_diffusion, generate_procedurally, nearest,
 };
 use shagreen_studio::replace::{has_format, refuse_foreign};
+use shagreen_studio::seen_materials::{SeenMaterial, doubt_with_advice, looks_like, seen_materials};
 
 /// Value of the field `format` of the description.
 const FORMAT: &str = "shagreen-generated";
@@ -51,8 +54,9 @@ const LONGEST_NAME: usize = 60;
 ///
 /// The built-in procedural generator needs no neural network: a lexicon interprets words for materials, patterns,
 /// colors, sizes and adjectives. Its picture is seamless, and the surface heights that it shows are written too. The
-/// texture is simulated from the same heights: a pattern is felt where the picture shows it. The command reports
-/// attributes for which prompt and picture predict different values.
+/// texture is simulated from the same heights: a pattern is felt where the picture shows it. The position follows the words:
+/// a procedural picture is computed from them. A picture of a diffusion model is independent evidence, and is weighted by its
+/// standard deviation. The command reports attributes for which prompt and picture predict different values.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Description of the surface, such as "a rough, soft carpet-like surface".
@@ -104,11 +108,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let looker = read_looker(args)?;
     let made = picture_of_prompt(args, &name, &understood)?;
     let progress = Progress::endless("predicting the position of the picture");
-    let [rough, hard] = looker.look(&made.for_prediction())?[..] else {
+    let seen = looker.look(&made.for_prediction())?;
+    let [rough, hard] = seen.attributes[..] else {
         bail!("the picture model does not predict rough-smooth and hard-soft; reinstall Shagreen")
     };
+    let materials = seen_materials(&seen.materials, built_in_lexicon()?);
     let [of_rough, of_hard, ..] = understood.attributes;
-    let placed = place([of_rough, of_hard], [rough, hard], made.witness());
+    let witness = made.witness();
+    let placed = place([of_rough, of_hard], [rough, hard], witness);
     let at = placed.at;
     progress.finish();
 
@@ -121,12 +128,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let surface = relief.map(|relief| &relief.surface);
     let entry = texture_of_picture(surface, &library, &name, at, &picture)?;
     let texture_id = entry.id.clone();
-    let authored = AuthoredTexture {
-        at,
-        picture: Some(Arc::new(picture)),
-        notes: format!("Generated from a prompt by the {}, seed {}: {}", made.by, args.seed, args.prompt),
-        ..AuthoredTexture::new(1, &name)
-    };
+    let authored = authored_texture(args, &name, &made.by, at, picture);
     let project = project_of_picture(authored, surface.map(|_| &entry), &library);
     let file = |name: &str| args.out.join(name);
     let shown = |name: &str| file(name).display().to_string();
@@ -150,6 +152,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "picture_model_sha256": looker.sha256(),
         "together": described(&placed.axes.map(|axis| axis.estimate)),
         "words_and_picture_differ": placed.disputed(),
+        "picture_is_independent": witness == Witness::OnItsOwn,
+        "materials": materials_json(&materials),
+        "doubts": doubts_json(&seen.doubts),
         "neighbors": neighbors,
         "unknown": understood.unknown,
         "is_about_touch": understood.is_about_touch(),
@@ -174,10 +179,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             format!("{name:<13}  {:5.1} ± {:.1}\n", axis.estimate.mean, axis.estimate.deviation)
         };
         let lines: String = ATTRIBUTES.into_iter().zip(&placed.axes).map(line).collect();
-        let quarrel = quarrel(&placed.disputed());
+        let notes = notes_on_picture(&placed, witness, &materials, &seen.doubts);
         let near: Vec<&str> = neighbors.iter().filter_map(|near| near["name"].as_str()).collect();
         format!(
-            "{lines}nearest textures: {}{quarrel}{}\npicture by the {}: {}\ntexture {texture_id}, {source}: {}\nproject: {}\n{}",
+            "{lines}nearest textures: {}{notes}{}\npicture by the {}: {}\ntexture {texture_id}, {source}: {}\nproject: {}\n{}",
             near.join(", "),
             prompt_summary(&understood),
             made.by,
@@ -197,12 +202,29 @@ pub(crate) fn range_um(heights_m: &[f64]) -> [f64; 2] {
     [1e6 * low, 1e6 * high]
 }
 
-/// Returns a line about attributes of which prompt and picture predict different values.
-fn quarrel(disputed: &[&str]) -> String {
-    if disputed.is_empty() {
-        return String::new();
+fn authored_texture(args: &Args, name: &str, by: &str, at: SpacePoint, picture: Picture) -> AuthoredTexture {
+    AuthoredTexture {
+        at,
+        picture: Some(Arc::new(picture)),
+        notes: format!("Generated from a prompt by the {by}, seed {}: {}", args.seed, args.prompt),
+        ..AuthoredTexture::new(1, name)
     }
-    format!("\nthe prompt and the picture predict different values of {}", disputed.join(" and "))
+}
+
+/// Returns lines about the picture. Materials and doubts matter only where the picture contributes to the position.
+fn notes_on_picture(
+    placed: &Placed,
+    witness: Witness,
+    materials: &[SeenMaterial],
+    doubts: &[PictureDoubt],
+) -> String {
+    let mut lines = vec![String::new()];
+    lines.extend(disagreement(&placed.disputed(), witness));
+    if witness == Witness::OnItsOwn {
+        lines.extend(looks_like(materials));
+        lines.extend(doubts.iter().map(|doubt| doubt_with_advice(*doubt)));
+    }
+    lines.join("\n")
 }
 
 /// Returns the command that renders the texture.

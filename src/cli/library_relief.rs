@@ -56,7 +56,8 @@ pub(crate) struct Args {
         conflicts_with_all = ["width", "row", "speed", "full_scale", "channel", "level"]
     )]
     side_mm: Option<f64>,
-    /// Height of white above black in the picture, in µm. For a photo, it is your estimate.
+    /// Height of white above black in the picture, in µm. For a photo, it is your estimate. For a TIFF with floating-point
+    /// numbers, signed numbers or numbers of more than 16 bits, the height of the highest above the lowest.
     #[arg(long, value_name = "UM", value_parser = height_um, requires = "side_mm")]
     height_um: Option<f64>,
     /// Library file to write.

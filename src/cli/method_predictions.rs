@@ -13,7 +13,15 @@ pub(crate) struct MethodPredictions {
     pub(crate) predicted: Vec<Vec<f64>>,
 }
 
+/// Name of the baseline.
+const BASELINE: &str = "mean of the others";
+
 impl MethodPredictions {
+    /// Returns whether this is the baseline, which does not look at a texture.
+    pub(crate) fn is_baseline(&self) -> bool {
+        self.name == BASELINE
+    }
+
     /// Baseline: the prediction for each texture is the mean of the others.
     pub(crate) fn mean_of_others(values: &[Vec<f64>]) -> Self {
         let n_attributes = values.first().map_or(0, Vec::len);
@@ -22,7 +30,12 @@ impl MethodPredictions {
             mean(&others.map(|(_, values)| values[attribute]).collect::<Vec<f64>>())
         };
         let of = |index| (0..n_attributes).map(|attribute| without(index, attribute)).collect();
-        Self { name: "mean of the others".to_owned(), predicted: (0..values.len()).map(of).collect() }
+        Self { name: BASELINE.to_owned(), predicted: (0..values.len()).map(of).collect() }
+    }
+
+    /// Returns the mean absolute error of each attribute, in points of 0..100.
+    pub(crate) fn mae(&self, values: &[Vec<f64>]) -> Vec<f64> {
+        errors(&self.predicted, values).mae
     }
 
     /// Returns the root mean square error (RMSE) of each attribute, in points of 0..100.

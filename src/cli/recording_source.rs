@@ -1,18 +1,20 @@
 //! Recorded strokes from files, with questions and warnings.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use shagreen_core::recording::Recording;
+use anyhow::bail;
+use shagreen_core::recording::{Finding, RawRecording, Recording, RecordingError, ThreeAxisRecording};
 use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::recording::{ColumnMap, Question, RecordingFileError, read_recording};
 
+use crate::cli::output;
 use crate::cli::recording_answers::sidecar;
 use shagreen_studio::file::{self, file_name};
 
 /// Result of reading a recording.
-pub(crate) struct RecordingRead {
+pub(crate) struct RecordingRead<T = Recording> {
     /// The recording, or the reason why it cannot be used.
-    pub(crate) recording: Result<Recording, String>,
+    pub(crate) recording: Result<T, String>,
     /// Properties that the file does not state, each with a guess if there is one.
     pub(crate) questions: Vec<Question>,
     /// Warnings, including the guesses.
@@ -23,6 +25,43 @@ pub(crate) struct RecordingRead {
 
 /// Reads a recording, and its sidecar with units if there is one.
 pub(crate) fn read_recording_file(file: &Path, map: &ColumnMap) -> RecordingRead {
+    read_as(file, map, Recording::from_raw)
+}
+
+/// As [`read_recording_file`], and keeps the three axes of acceleration.
+pub(crate) fn read_three_axis_file(file: &Path, map: &ColumnMap) -> RecordingRead<ThreeAxisRecording> {
+    read_as(file, map, ThreeAxisRecording::from_raw)
+}
+
+/// Reads several recordings by `read`, one of the functions above, and prints their warnings and notes. The first that
+/// cannot be used is the error.
+pub(crate) fn read_recording_files<T>(
+    files: &[PathBuf],
+    map: &ColumnMap,
+    read: impl Fn(&Path, &ColumnMap) -> RecordingRead<T>,
+) -> anyhow::Result<Vec<T>> {
+    let mut recordings = Vec::new();
+    for file in files {
+        let read = read(file, map);
+        for warning in &read.warnings {
+            output::warn(&format!("{warning}: {}", file.display()));
+        }
+        for note in &read.notes {
+            output::note(&format!("{note}: {}", file.display()));
+        }
+        match read.recording {
+            Ok(recording) => recordings.push(recording),
+            Err(reason) => bail!("{reason}: {}", file.display()),
+        }
+    }
+    Ok(recordings)
+}
+
+fn read_as<T>(
+    file: &Path,
+    map: &ColumnMap,
+    convert: impl FnOnce(RawRecording) -> Result<(T, Vec<Finding>), RecordingError>,
+) -> RecordingRead<T> {
     let failed = |reason: String| RecordingRead {
         recording: Err(reason),
         questions: Vec::new(),
@@ -46,7 +85,7 @@ pub(crate) fn read_recording_file(file: &Path, map: &ColumnMap) -> RecordingRead
         Ok(read) => {
             let mut warnings = guessed(&read.questions);
             warnings.extend(read.warnings);
-            let (recording, findings) = match Recording::from_raw(read.raw) {
+            let (recording, findings) = match convert(read.raw) {
                 Ok((recording, findings)) => (Ok(recording), findings),
                 Err(error) => (Err(error.to_string()), error.findings),
             };

@@ -1,12 +1,13 @@
-//! `shagreen space build`: builds an authoring space from sorts and ratings.
+//! `shagreen space build`: builds an authoring space from ratings, with or without sorts.
 
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use anyhow::bail;
 use shagreen_core::dsp::mfcc::{MfccOptions, htk, paper, recommended};
 use shagreen_core::people::mds::{MAX_DIMS, Transform};
-use shagreen_core::people::ratings::AdjectivePair;
+use shagreen_core::people::ratings::{AdjectivePair, Rating};
 use shagreen_core::people::sorting::Finding;
 use shagreen_core::space::features::NamedTexture;
 use shagreen_core::space::selection::Method;
@@ -14,7 +15,7 @@ use shagreen_core::space::space_build::{FeatureKind, PlacedBy, SpaceBuild, Space
 use shagreen_core::words::counted;
 use shagreen_formats::figure::page_svg;
 use shagreen_formats::library::write_library;
-use shagreen_formats::space_report::{FIGURES, FORMAT, space_report, space_subtitle};
+use shagreen_formats::space_report::{FORMAT, figure_names, space_report, space_subtitle};
 
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Usage, warn_of_restricted};
@@ -29,9 +30,10 @@ use shagreen_studio::space::{self, BuiltSpace};
 /// Builds an authoring space from judgments of textures and features of their vibrations.
 ///
 /// Multidimensional scaling of the sorts gives a perceptual space. The ratings give the direction of each adjective
-/// pair in this space. The textures are projected onto the directions of two pairs, the axes. Features of the
-/// vibrations predict the positions on the axes; nested cross-validation and a permutation test measure the accuracy. A
-/// report (L2.report.json) and a page of plots (L2.report.svg) are written next to the library.
+/// pair in this space. The textures are projected onto the directions of two pairs, the axes. Without sorts, the
+/// positions are the mean ratings on two pairs. Features of the vibrations predict the positions on the axes; nested
+/// cross-validation and a permutation test measure the accuracy. A report (L2.report.json) and a page of plots
+/// (L2.report.svg) are written next to the library.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -42,18 +44,18 @@ pub(crate) struct Args {
     #[arg(long, value_name = "L2")]
     out: PathBuf,
     /// Adjective pairs of the two axes. Default: rough-smooth and hard-soft, or the pair that correlates best with each
-    /// dimension.
+    /// dimension. Without sorts, the default is the two least correlated pairs with reliable ratings.
     #[arg(long, value_name = "A,B", value_parser = parse_axes)]
     axes: Option<Axes>,
-    /// Number of dimensions of the perceptual space.
-    #[arg(long, default_value_t = 2, value_parser = clap::value_parser!(u8).range(2..=MAX_DIMS as i64))]
-    dimensions: u8,
+    /// Number of dimensions of the perceptual space; needs sorts [default: 2].
+    #[arg(long, value_parser = clap::value_parser!(u8).range(2..=MAX_DIMS as i64))]
+    dimensions: Option<u8>,
     /// Treatment of tied dissimilarities: primary allows different disparities, secondary keeps them equal. With
     /// interval, disparities are a linear function of the dissimilarities (metric scaling). Auto is primary, or interval
-    /// if the solution of primary is degenerate.
+    /// if the solution of primary is degenerate. It needs sorts.
     #[arg(long, default_value = "auto", value_parser = words(Ties::ALL, Ties::id))]
     ties: Ties,
-    /// Rotate the second axis to a right angle with the first.
+    /// Rotate the second axis to a right angle with the first; needs sorts.
     #[arg(long)]
     orthogonal: bool,
     /// Features of the vibrations.
@@ -68,7 +70,7 @@ pub(crate) struct Args {
     #[arg(long, default_value = "practical", value_parser = words(Method::ALL, Method::id))]
     selection: Method,
     /// Positions of the textures: felt, from the judgments; predicted, from the features; auto selects for each axis
-    /// the positions that are probably closer to perception.
+    /// the positions that are probably closer to perception, and felt without sorts.
     #[arg(long, default_value = "auto", value_parser = words(Placement::ALL, Placement::id))]
     placement: Placement,
     /// Number of permutations for the null distribution of the permutation test.
@@ -141,7 +143,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&report_json, "the report", |bytes| has_format(bytes, FORMAT))?;
     refuse_foreign(&report_svg, "the page of plots", |bytes| bytes.starts_with(b"<svg"))?;
     if let Some(folder) = &args.figures {
-        check_figures(folder, &FIGURES, &inputs)?;
+        check_figures(folder, &figure_names(0), &inputs)?;
     }
     // Checked before minutes of computing.
     if let Some(folder) = [&args.out, &report_json, &report_svg].into_iter().find(|path| path.is_dir()) {
@@ -149,6 +151,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let library = args.library.load()?;
     let Judgments { sorts, ratings, votes, source, warnings } = args.judgments.read()?;
+    if let Some(folder) = &args.figures {
+        check_figures(folder, &figure_names(n_pairs(&ratings)), &inputs)?;
+    }
     let textures = library.textures.iter().map(|t| NamedTexture { name: &t.id, model: &t.model }).collect();
     let data = SpaceData { textures, sorts, ratings, votes, source };
     let progress = Progress::new("building the space", Step::COUNT);
@@ -195,8 +200,20 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
         );
         return Err(Usage(text).into());
     }
+    // Options that have an effect only with sorts.
+    let unused = [
+        ("--dimensions", args.dimensions.is_some()),
+        ("--ties", args.ties.0.is_some()),
+        ("--orthogonal", args.orthogonal),
+    ];
+    if let Some((option, _)) =
+        unused.into_iter().find(|(_, is_given)| *is_given && !args.judgments.has_sorts())
+    {
+        let text = format!("{option} has no effect without --sorting: leave it out, or give --sorting S.csv");
+        return Err(Usage(text).into());
+    }
     Ok(SpaceOptions {
-        n_dims: usize::from(args.dimensions),
+        n_dims: args.dimensions.map_or(usual.n_dims, usize::from),
         transform: args.ties.0,
         axes: args.axes.clone().map(|axes| axes.0),
         is_orthogonal: args.orthogonal,
@@ -207,6 +224,11 @@ fn options(args: &Args) -> anyhow::Result<SpaceOptions> {
         n_permutations: args.permutations,
         ..usual
     })
+}
+
+/// Number of adjective pairs among the ratings.
+fn n_pairs(ratings: &[Rating]) -> usize {
+    ratings.iter().map(|rating| (&rating.pair.low, &rating.pair.high)).collect::<BTreeSet<_>>().len()
 }
 
 fn mfcc(name: Option<&str>) -> MfccOptions {
@@ -237,8 +259,8 @@ fn in_words(args: &Args, built: &SpaceBuild, validation: Vec<String>) -> String 
 /// Returns an explanation if a participant's judgments are outliers.
 fn outliers_explained(built: &SpaceBuild) -> Option<String> {
     let is_rater = built.raters.iter().any(|(_, fit)| fit.outlying);
-    let is_sorter =
-        built.similarity.findings.iter().any(|finding| matches!(finding, Finding::Outlying { .. }));
+    let mut of_sorters = built.perceptual.iter().flat_map(|space| &space.similarity.findings);
+    let is_sorter = of_sorters.any(|finding| matches!(finding, Finding::Outlying { .. }));
     (is_rater || is_sorter).then(|| {
         format!(
             "Outliers {}: nobody is excluded for it. Check for swapped poles or confused names, and build again without the outlier to see its influence.",

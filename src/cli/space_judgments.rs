@@ -26,9 +26,9 @@ use shagreen_studio::near_names::meant;
 #[derive(clap::Args)]
 pub(crate) struct JudgmentArgs {
     /// CSV file of sorts, with a row for each texture of each sort (columns participant, trial, groups, texture,
-    /// group), or a column for each texture.
+    /// group), or a column for each texture. Without it, the space is built from the ratings alone.
     #[arg(long, value_name = "S.csv")]
-    sorting: PathBuf,
+    sorting: Option<PathBuf>,
     /// CSV file of ratings, with a row for each rating (columns participant, texture, adjective, value), or a column
     /// for each adjective pair.
     #[arg(long, value_name = "R.csv")]
@@ -59,16 +59,24 @@ pub(crate) struct Judgments {
 impl JudgmentArgs {
     /// Returns the files.
     pub(crate) fn paths(&self) -> [Option<&Path>; 3] {
-        [Some(&self.sorting), Some(&self.ratings), self.relevance.as_deref()]
+        [self.sorting.as_deref(), Some(&self.ratings), self.relevance.as_deref()]
+    }
+
+    /// Whether there are sorts.
+    pub(crate) fn has_sorts(&self) -> bool {
+        self.sorting.is_some()
     }
 
     /// Reads the tables and prints their warnings.
     pub(crate) fn read(&self) -> anyhow::Result<Judgments> {
         let mut warnings = Vec::new();
-        let sorts = read(&self.sorting, &mut warnings, |bytes| {
-            let table = read_sorting_csv(bytes)?;
-            Ok(Imported { value: table.sorts, warnings: table.warnings })
-        })?;
+        let sorts = match &self.sorting {
+            Some(path) => read(path, &mut warnings, |bytes| {
+                let table = read_sorting_csv(bytes)?;
+                Ok(Imported { value: table.sorts, warnings: table.warnings })
+            })?,
+            None => Vec::new(),
+        };
         let ratings = read(&self.ratings, &mut warnings, |bytes| {
             let read = read_ratings(bytes)?;
             let value = read
@@ -134,7 +142,7 @@ impl JudgmentArgs {
         library: &Library,
         of_library: &LibraryArgs,
     ) -> anyhow::Error {
-        let (sorting, ratings) = (Some(&*self.sorting), Some(&*self.ratings));
+        let (sorting, ratings) = (self.sorting.as_deref(), Some(&*self.ratings));
         let files = match &error {
             SpaceBuildError::UnknownTexture { what: "sorted", .. }
             | SpaceBuildError::TooFewTextures { .. }
@@ -143,6 +151,9 @@ impl JudgmentArgs {
             | SpaceBuildError::Mds(_) => [sorting, None],
             SpaceBuildError::UnknownTexture { .. }
             | SpaceBuildError::Ratings(_)
+            | SpaceBuildError::NoRatings
+            | SpaceBuildError::TooFewRated { .. }
+            | SpaceBuildError::RatedApart
             | SpaceBuildError::TooFewPairs { .. }
             | SpaceBuildError::NoSuchAxis { .. }
             | SpaceBuildError::Axis { .. } => [ratings, None],

@@ -11,19 +11,21 @@ use shagreen_core::space::attribute_predictor::{leave_one_out, linear_leave_one_
 use shagreen_core::words::counted;
 use shagreen_formats::attribute_table::attribute_table;
 
-use crate::cli::drawn_touches::drawn_touches;
+use crate::cli::drawn_touches::{DrawnTouches, drawn_touches};
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::method_predictions::{Comparison, MethodPredictions};
 use crate::cli::output;
+use crate::cli::prediction_figures::{FigureArgs, Judged};
 use crate::cli::progress::Progress;
-use crate::cli::train_networks::{NetworkArgs, check_out, train_networks};
+use crate::cli::train_networks::{NetworkArgs, check_arguments, train_networks};
 
 /// Trains predictors of texture attributes on the texture models of a library. Reports leave-one-texture-out errors: each
 /// texture is predicted by a predictor that was trained on the others.
 ///
 /// A Gaussian process over 12 features of each model (level, spectrum, friction, tap transient) trains in milliseconds.
 /// --network also trains a network of "Predicting Perceptual Haptic Attributes of Textured Surface from Tactile Data
-/// Based on Deep CNN-LSTM Network" (VRST 2023) or a part of it, on strokes rendered from the models; this takes hours.
+/// Based on Deep CNN-LSTM Network" (VRST 2023) or one of its rivals, on strokes rendered from the models or recorded; this
+/// takes hours, or the time budget of --minutes.
 /// Linear regression and the mean of the other textures are evaluated too. The command names the predictor with the
 /// lowest root mean square error. Attributes are the ratings of the library; without ratings, they are the axes of its
 /// positions. --library simulated has five attributes.
@@ -42,6 +44,8 @@ pub(crate) struct Args {
     /// Folder for the state of network training; an interrupted training resumes from it.
     #[arg(long, value_name = "FOLDER")]
     state: Option<PathBuf>,
+    #[command(flatten)]
+    figures: FigureArgs,
     /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
@@ -57,7 +61,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         n_drawn == 0 || n_drawn >= LEAST_KNOWN,
         "--drawn is {n_drawn}, but at least {LEAST_KNOWN} materials are needed; give a larger number, or leave the option out"
     );
-    check_out(&args.networks, args.library.path())?;
+    check_arguments(&args.networks, args.library.path())?;
     let library = args.library.load()?;
     let table = attribute_table(&library)?;
     let known = table.known(&library);
@@ -67,6 +71,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         library.name,
         counted(known.len(), "texture")
     );
+    args.figures.check(&table.names, &[args.library.path()])?;
     let progress = Progress::endless("predicting each texture from the others");
     let estimates = leave_one_out(&known)?;
     let means = |of: &[Estimate]| of.iter().map(|estimate| estimate.mean).collect::<Vec<f64>>();
@@ -81,8 +86,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     all.push(MethodPredictions::mean_of_others(&table.values));
     progress.finish();
     let drawn = if n_drawn > 0 { Some(drawn_touches(n_drawn, args.networks.seed())?) } else { None };
-    let trained = train_networks(&args.networks, args.state.as_deref(), &library, &table)?;
-    all.extend(trained.judged);
+    let mut trained = train_networks(&args.networks, args.state.as_deref(), &library, &table, &all[0])?;
+    all.append(&mut trained.judged);
 
     let comparison = Comparison::new(&all, &table.names, &table.values);
     // RMS of error over predicted standard deviation: about one for calibrated uncertainties.
@@ -94,12 +99,27 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     };
     let calibrations: Vec<f64> = (0..table.names.len()).map(calibration).collect();
     let n = known.len();
+    let deviations =
+        estimates.iter().map(|of| of.iter().map(|estimate| estimate.deviation).collect()).collect();
+    let textures: Vec<String> =
+        table.textures.iter().map(|index| library.textures[*index].name.clone()).collect();
+    let drawing = args.figures.write(&Judged {
+        methods: &all,
+        deviations: &[(all[0].name.clone(), deviations)],
+        textures: &textures,
+        attributes: &table.names,
+        actual: &table.values,
+        validation: "leave-one-texture-out",
+        source: &table.source_words(),
+    });
     let mut result = comparison.as_json();
     let more = json!({
         "error_over_deviation": comparison.by_name(&calibrations),
         "textures": n,
         "label_source": table.source_ids().collect::<Vec<_>>(),
-        "epochs": trained.epochs,
+        "epochs": trained.n_epochs(),
+        "networks": trained.as_json(),
+        "figures": args.figures.folder().map(|folder| folder.display().to_string()),
         "seconds": started.elapsed().as_secs_f64(),
     });
     result.extend(more.as_object().cloned().unwrap_or_default());
@@ -113,10 +133,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             table.source_words(),
             comparison.text()
         );
-        match &drawn {
-            Some(drawn) => format!("{of_library}\n\n{}", drawn.text()),
-            None => of_library,
-        }
+        let parts = [of_library, trained.text(), drawn.as_ref().map(DrawnTouches::text).unwrap_or_default()];
+        parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<String>>().join("\n\n")
     });
-    Ok(())
+    // After the result, which took hours and must not be lost with the figures.
+    drawing
 }

@@ -1,76 +1,60 @@
 //! Training of the networks of `shagreen train attributes`: once without each texture, saved after every epoch,
 //! resumable.
 
+mod network_kind;
+mod time_budget;
+mod trained;
+mod training_strokes;
+
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use anyhow::{Context as _, ensure};
-use shagreen_core::maths::rng::derive_seed;
-use shagreen_core::recording::fit::Stroke;
-use shagreen_core::texture::patterns::{
-    PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns, render_patterns,
-};
+use anyhow::{Context as _, bail, ensure};
+use shagreen_core::words::two_digits;
 use shagreen_formats::atomic;
 use shagreen_formats::attribute_table::AttributeTable;
 use shagreen_formats::bounded_file::FileKind;
-use shagreen_formats::library::{Library, free_id, id_from_name};
-use shagreen_learn::cnn_lstm::{Architecture, Streams};
+use shagreen_formats::library::Library;
+use shagreen_learn::model_card::{GaussianProcessComparison, ModelCard, StrokeOrigin, TrainingExtent};
 use shagreen_learn::model_file::is_model;
-use shagreen_learn::stroke_model::ModelCard;
 use shagreen_learn::stroke_set::StrokedTexture;
 use shagreen_learn::training::{Training, TrainingConfig};
 
 use crate::cli::method_predictions::MethodPredictions;
 use crate::cli::output;
 use crate::cli::progress::Progress;
+use crate::cli::train_networks::network_kind::{Axes, Network, name_of};
+use crate::cli::train_networks::time_budget::{TimeBudget, n_rounds};
+use crate::cli::train_networks::trained::{Trained, TrainedKind};
+use crate::cli::train_networks::training_strokes::{RecordingTableArgs, ranges, recorded, rendered};
 use crate::cli::words::words;
 use shagreen_studio::file;
 use shagreen_studio::parallel::{in_parallel_by, n_processors};
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Network that can be trained.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Network {
-    Paper320,
-    Literal,
-    Convolutions,
-    Memory,
-}
-
-impl Network {
-    const ALL: [Self; 4] = [Self::Paper320, Self::Literal, Self::Convolutions, Self::Memory];
-
-    fn id(self) -> &'static str {
-        match self {
-            Self::Paper320 => "paper320",
-            Self::Literal => "literal",
-            Self::Convolutions => "convolutions",
-            Self::Memory => "memory",
-        }
-    }
-
-    fn architecture(self, n_outputs: usize) -> Architecture {
-        let paper = Architecture::paper320(n_outputs);
-        match self {
-            Self::Paper320 => paper,
-            Self::Literal => Architecture::literal(n_outputs),
-            Self::Convolutions => Architecture { streams: Streams::Convolutions, ..paper },
-            Self::Memory => Architecture { streams: Streams::Memory, ..paper },
-        }
-    }
-}
-
 #[derive(clap::Args)]
 pub(crate) struct NetworkArgs {
     /// Network to train in addition: paper320, with the 320 convolutional features that the text of the paper states;
-    /// literal, with the pooling layers as printed in the paper; convolutions or memory, only the convolutional or the
-    /// LSTM part of paper320. Can be given several times.
-    #[arg(long = "network", value_name = "NETWORK", value_parser = words(Network::ALL, Network::id))]
+    /// literal, with the pooling layers as printed in the paper; convolutions (or 1d-cnn) and memory (or lstm), only the
+    /// convolutional or the LSTM part of paper320; serial, the convolutions of literal followed by the LSTM layers. The
+    /// last three are the 1D-CNN, the LSTM and the CNN-LSTM to which the paper compares its network in Table 3; it states
+    /// no sizes for them. Can be given several times.
+    #[arg(long = "network", value_name = "NETWORK", value_parser = Network::parser())]
     networks: Vec<Network>,
+    /// Acceleration that the networks read: combined, one signal from all axes of the sensor (DFT321); three, the three
+    /// axes of recordings. Texture models hold the combined signal only, so three needs --recordings.
+    #[arg(long, value_parser = words(Axes::ALL, Axes::id), default_value = "combined")]
+    axes: Axes,
+    #[command(flatten)]
+    table: RecordingTableArgs,
     /// Largest number of epochs.
     #[arg(long, default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..=10_000))]
     epochs: u32,
+    /// Time budget in minutes, divided evenly among all networks. A network keeps what it has learned when its time is
+    /// over, also within an epoch. The result then depends on the speed of the machine.
+    #[arg(long, value_name = "N", value_parser = minutes)]
+    minutes: Option<f64>,
     /// Number of epochs without a lower error on the validation textures after which training stops; 0 never stops
     /// early and uses no validation textures.
     #[arg(long, default_value_t = 10)]
@@ -105,64 +89,153 @@ fn share(text: &str) -> Result<f64, String> {
     share.ok_or_else(|| "it must be a number from 0.2 to 1".to_owned())
 }
 
-/// Results of the networks.
-pub(crate) struct Trained {
-    pub(crate) judged: Vec<MethodPredictions>,
-    /// Number of epochs of all networks together.
-    pub(crate) epochs: usize,
+/// Longest time budget in minutes, about ten weeks.
+const MAX_MINUTES: f64 = 1e5;
+
+fn minutes(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(minutes) if minutes > 0.0 && minutes <= MAX_MINUTES => Ok(minutes),
+        _ => Err(format!("it must be a number above 0, at most {MAX_MINUTES}")),
+    }
 }
 
-/// Checks before hours of training that the trained network can be written.
-pub(crate) fn check_out(args: &NetworkArgs, library: Option<&Path>) -> anyhow::Result<()> {
+/// Checks, before hours of training, that the arguments fit each other and that the trained network can be written.
+pub(crate) fn check_arguments(args: &NetworkArgs, library: Option<&Path>) -> anyhow::Result<()> {
+    let recordings = args.table.path();
+    let of_networks = [
+        ("--out", args.out.is_some()),
+        ("--recordings", recordings.is_some()),
+        ("--axes three", args.axes == Axes::Three),
+        ("--minutes", args.minutes.is_some()),
+    ];
+    let given = of_networks.iter().find(|(_, is_given)| *is_given);
+    if let (Some((option, _)), true) = (given, args.networks.is_empty()) {
+        bail!("{option} needs a network to train; choose one with --network");
+    }
+    ensure!(
+        args.axes == Axes::Combined || recordings.is_some(),
+        "--axes three needs recordings with three axes: the texture models of a library hold one acceleration, combined by DFT321, from which the axes cannot be computed; give a table of recordings with --recordings, or leave --axes out"
+    );
     let Some(out) = &args.out else { return Ok(()) };
-    ensure!(!args.networks.is_empty(), "--out needs a network to train; choose one with --network");
-    refuse_inputs(&[out], &[library])?;
+    refuse_inputs(&[out], &[library, recordings])?;
     refuse_foreign(out, "a model", is_model)?;
     Ok(atomic::check_all(&[out])?)
 }
 
-/// Trains each requested network once without each texture, several in parallel.
+/// What all networks are trained with.
+struct Course<'a> {
+    args: &'a NetworkArgs,
+    /// Folder of the saved states.
+    state: Option<&'a Path>,
+    textures: &'a [StrokedTexture],
+    n_attributes: usize,
+    budget: Option<TimeBudget>,
+}
+
+/// Training of one network among several.
+struct Run<'a> {
+    /// File of its state.
+    kept: Option<PathBuf>,
+    /// Its name in messages.
+    what: String,
+    /// When it must stop.
+    until: Option<Instant>,
+    progress: &'a Progress,
+    /// Whether another training has failed, so that this one is in vain.
+    failed: &'a AtomicBool,
+}
+
+/// Trains each requested network once without each texture, several in parallel, and writes the network that is trained
+/// on all textures. `gaussian_process` holds the predictions of the Gaussian process for the same textures.
 pub(crate) fn train_networks(
     args: &NetworkArgs,
     state: Option<&Path>,
     library: &Library,
     table: &AttributeTable,
+    gaussian_process: &MethodPredictions,
 ) -> anyhow::Result<Trained> {
-    let mut trained = Trained { judged: Vec::new(), epochs: 0 };
-    if args.networks.is_empty() {
-        return Ok(trained);
-    }
+    let mut trained = Trained {
+        judged: Vec::new(),
+        kinds: Vec::new(),
+        most_epochs: args.epochs as usize,
+        minutes: args.minutes,
+    };
+    let Some(first) = args.networks.first() else { return Ok(trained) };
+    let budget = args.minutes.map(|minutes| TimeBudget::starting(Instant::now(), minutes));
     if let Some(folder) = state {
         std::fs::create_dir_all(folder)
             .context("cannot create the folder; check its name and your permissions")
             .with_context(|| file::in_file(folder))?;
     }
-    let rendering = Progress::endless("rendering the training strokes");
-    let textures = strokes(args, library, table)?;
-    rendering.finish();
-    let config = |network: Network| {
-        TrainingConfig::paper(
-            network.architecture(table.names.len()),
-            args.epochs as usize,
-            (args.patience > 0).then_some(args.patience as usize),
-            args.seed,
-        )
+    let preparing = Progress::endless("preparing the training strokes");
+    let n_attributes = table.names.len();
+    let textures = match args.table.path() {
+        Some(path) => {
+            let n_samples = first.architecture(args.axes, n_attributes).n_samples;
+            recorded(&args.table, path, (library, table), args.axes, n_samples)?
+        }
+        None => rendered(library, table, args.share, args.seed)?,
     };
-    for network in &args.networks {
-        let progress =
-            Progress::of_hours("training the network", textures.len() * in_thousandths(args.epochs));
+    preparing.finish();
+    let course = Course { args, state, textures: &textures, n_attributes, budget };
+    let rounds_of_all = usize::from(args.out.is_some());
+    for (kind_idx, network) in args.networks.iter().enumerate() {
+        let name = name_of(*network, args.axes);
+        let n_kinds_after = args.networks.len() - 1 - kind_idx;
+        let rounds_after = n_kinds_after * course.n_rounds() + rounds_of_all;
+        let (epochs, predicted) = course.leave_each_out(*network, rounds_after)?;
+        let judged = MethodPredictions { name: format!("network {name}"), predicted };
+        let comparison =
+            GaussianProcessComparison::new(judged.mae(&table.values), gaussian_process.mae(&table.values));
+        trained.judged.push(judged);
+        trained.kinds.push(TrainedKind { name, method: network.method(), epochs, comparison });
+    }
+    if let Some(out) = &args.out {
+        let training = course.train_on_all(*first)?;
+        let card = ModelCard {
+            attributes: table.names.clone(),
+            left_out_rmse: trained.judged.first().map(|of| of.rmse(&table.values)).unwrap_or_default(),
+            network: name_of(*first, args.axes),
+            learned_from: table.of_library(&library.name),
+            label_sources: table.source_ids().map(str::to_owned).collect(),
+            gaussian_process: trained.kinds.first().map(|kind| kind.comparison.clone()),
+            extent: Some(extent_of(args, &textures, &trained, training.n_epochs())),
+        };
+        atomic::write(out, &training.finish()?.to_bytes(&card)?)?;
+    }
+    Ok(trained)
+}
+
+impl Course<'_> {
+    /// Number of rounds in which the networks of one kind are trained, several at a time.
+    fn n_rounds(&self) -> usize {
+        n_rounds(self.textures.len(), self.args.n_jobs())
+    }
+
+    /// Trains a network once without each texture. Returns the epochs of each, and its prediction of the texture.
+    /// `rounds_after` is the number of rounds of networks that are trained afterwards.
+    fn leave_each_out(
+        &self,
+        network: Network,
+        rounds_after: usize,
+    ) -> anyhow::Result<(Vec<f64>, Vec<Vec<f64>>)> {
+        let (textures, n_jobs) = (self.textures, self.args.n_jobs());
+        let name = name_of(network, self.args.axes);
+        let progress = self.progress(textures.len());
         let failed = AtomicBool::new(false);
-        let of = in_parallel_by(args.n_jobs(), textures.len(), |index| {
+        let of = in_parallel_by(n_jobs, textures.len(), |index| {
             let mut others: Vec<&StrokedTexture> = textures.iter().collect();
             let left_out = others.remove(index);
-            let kept = state
-                .map(|folder| folder.join(format!("{}-without-{}.safetensors", network.id(), left_out.id)));
-            let what =
-                format!("{} without {} ({} of {})", network.id(), left_out.id, index + 1, textures.len());
+            let run = Run {
+                kept: self.kept(&format!("{name}-without-{}", left_out.id)),
+                what: format!("{name} without {} ({} of {})", left_out.id, index + 1, textures.len()),
+                until: self.until(self.n_rounds() - index / n_jobs + rounds_after),
+                progress: &progress,
+                failed: &failed,
+            };
             let without = || {
-                let training = train(&others, config(*network), kept.as_deref(), &what, &progress, &failed)?;
-                let Some(training) = training else { return Ok(None) };
-                let n_epochs = training.epochs().len();
+                let Some(training) = train(&others, self.config(network), &run)? else { return Ok(None) };
+                let n_epochs = training.n_epochs();
                 let of = training.finish()?.predict(&left_out.strokes)?;
                 anyhow::Ok(Some((n_epochs, of.context("the strokes are shorter than the input segment of the network; give a larger --share")?)))
             };
@@ -170,67 +243,122 @@ pub(crate) fn train_networks(
             without().inspect_err(|_| failed.store(true, Ordering::Relaxed))
         });
         progress.finish();
-        let of = of.into_iter().collect::<anyhow::Result<Vec<Option<(usize, Vec<f64>)>>>>()?;
-        trained.epochs += of.iter().flatten().map(|(n_epochs, _)| n_epochs).sum::<usize>();
-        let predicted = of.into_iter().flatten().map(|(_, predicted)| predicted).collect();
-        trained.judged.push(MethodPredictions { name: format!("network {}", network.id()), predicted });
+        let of = of.into_iter().collect::<anyhow::Result<Vec<Option<(f64, Vec<f64>)>>>>()?;
+        Ok(of.into_iter().flatten().unzip())
     }
-    let rmse_of_first = trained.judged.first().map(|judged| judged.rmse(&table.values)).unwrap_or_default();
-    if let (Some(out), Some(network)) = (&args.out, args.networks.first()) {
-        let kept = state.map(|folder| folder.join(format!("{}-of-all.safetensors", network.id())));
-        let all: Vec<&StrokedTexture> = textures.iter().collect();
-        let progress = Progress::of_hours("training the network", in_thousandths(args.epochs));
-        let what = format!("{} of all", network.id());
-        let never = AtomicBool::new(false);
-        let training = train(&all, config(*network), kept.as_deref(), &what, &progress, &never)?;
+
+    fn train_on_all(&self, network: Network) -> anyhow::Result<Training> {
+        let name = name_of(network, self.args.axes);
+        let progress = self.progress(1);
+        let run = Run {
+            kept: self.kept(&format!("{name}-of-all")),
+            what: format!("{name} of all"),
+            until: self.until(1),
+            progress: &progress,
+            failed: &AtomicBool::new(false),
+        };
+        let all: Vec<&StrokedTexture> = self.textures.iter().collect();
+        let training = train(&all, self.config(network), &run)?;
         progress.finish();
         let Some(training) = training else { unreachable!("no other training can fail") };
-        let model = training.finish()?;
-        let card = ModelCard {
-            attributes: table.names.clone(),
-            left_out_rmse: rmse_of_first,
-            network: network.id().to_owned(),
-            learned_from: table.of_library(&library.name),
-            label_sources: table.source_ids().map(str::to_owned).collect(),
-        };
-        atomic::write(out, &model.to_bytes(&card)?)?;
+        Ok(training)
     }
-    Ok(trained)
+
+    fn config(&self, network: Network) -> TrainingConfig {
+        let NetworkArgs { axes, epochs, patience, seed, .. } = *self.args;
+        TrainingConfig::paper(
+            network.architecture(axes, self.n_attributes),
+            epochs as usize,
+            (patience > 0).then_some(patience as usize),
+            seed,
+        )
+    }
+
+    fn kept(&self, name: &str) -> Option<PathBuf> {
+        self.state.map(|folder| folder.join(format!("{name}.safetensors")))
+    }
+
+    fn until(&self, n_rounds: usize) -> Option<Instant> {
+        self.budget.map(|budget| budget.deadline(Instant::now(), n_rounds))
+    }
+
+    /// Returns the progress of `n` networks. With a time budget, the number of epochs to do is unknown.
+    fn progress(&self, n: usize) -> Progress {
+        let task = "training the network";
+        match self.budget {
+            Some(_) => Progress::endless(task),
+            None => Progress::of_hours(task, n * 1000 * self.args.epochs as usize),
+        }
+    }
 }
 
-/// Returns the number of steps of a progress bar for this number of epochs.
-fn in_thousandths(n_epochs: u32) -> usize {
-    1000 * n_epochs as usize
+/// Returns how the network that is written was trained: for `epochs`, and its leave-one-out errors as the first kind.
+fn extent_of(
+    args: &NetworkArgs,
+    textures: &[StrokedTexture],
+    trained: &Trained,
+    epochs: f64,
+) -> TrainingExtent {
+    let (speed_mm_per_s, force_n) = ranges(textures);
+    let is_recorded = args.table.path().is_some();
+    TrainingExtent {
+        most_epochs: trained.most_epochs,
+        epochs,
+        left_out_epochs: trained.kinds.first().map(|kind| kind.epochs.clone()).unwrap_or_default(),
+        minutes: trained.minutes,
+        strokes: if is_recorded { StrokeOrigin::Recorded } else { StrokeOrigin::Rendered },
+        speed_mm_per_s,
+        force_n,
+    }
 }
 
-/// Trains to the end, from the saved state if there is one; `None` if another training has failed.
+/// Trains to the end or until its time is over, from the saved state if there is one; `None` if another training has
+/// failed.
 fn train(
     textures: &[&StrokedTexture],
     config: TrainingConfig,
-    kept: Option<&Path>,
-    what: &str,
-    progress: &Progress,
-    failed: &AtomicBool,
+    run: &Run<'_>,
 ) -> anyhow::Result<Option<Training>> {
+    let Run { what, progress, failed, .. } = run;
     let n_epochs = config.n_epochs;
-    let mut training = match kept.filter(|path| path.exists()) {
+    let mut training = match run.kept.as_ref().filter(|path| path.exists()) {
         Some(path) => Training::resume(textures, config, &file::read_file(path, FileKind::Network)?)
             .with_context(|| file::in_file(path))?,
         None => Training::new(textures, config)?,
     };
+    let keep = |training: &Training| -> anyhow::Result<()> {
+        if let Some(path) = &run.kept {
+            atomic::write(path, &training.keep()?)?;
+        }
+        Ok(())
+    };
     let mut done = 1000 * training.epochs().len().min(n_epochs);
     progress.leave_out(done);
+    // A network is trained on one batch at least, however little time there is.
+    let mut is_begun = training.n_epochs() > 0.0;
     while !training.is_over() {
         let started = Instant::now();
-        let before = done;
+        let before = 1000 * training.epochs().len();
         let epoch = training.run_epoch(|share| {
             let now = before + (1000.0 * share) as usize;
-            progress.steps(now - done);
-            done = now;
-            !failed.load(Ordering::Relaxed)
+            progress.steps(now.saturating_sub(done));
+            done = done.max(now);
+            let is_late = is_begun && run.until.is_some_and(|until| Instant::now() >= until);
+            is_begun = true;
+            !is_late && !failed.load(Ordering::Relaxed)
         })?;
-        let Some(epoch) = epoch else { return Ok(None) };
-        progress.steps(before + 1000 - done);
+        let Some(epoch) = epoch else {
+            if failed.load(Ordering::Relaxed) {
+                return Ok(None);
+            }
+            output::note(&format!(
+                "{what}: the time is over after {} of {n_epochs} epochs",
+                two_digits(training.n_epochs())
+            ));
+            keep(&training)?;
+            break;
+        };
+        progress.steps((before + 1000).saturating_sub(done));
         done = before + 1000;
         let aside = epoch.aside_rmse.map_or(String::new(), |rmse| format!(", validation RMSE {rmse:.2}"));
         output::note(&format!(
@@ -239,45 +367,9 @@ fn train(
             started.elapsed().as_secs_f64(),
             epoch.learned_rmse
         ));
-        if let Some(path) = kept {
-            atomic::write(path, &training.keep()?)?;
-        }
+        keep(&training)?;
     }
     // Epochs that an early stop skips.
     progress.leave_out((1000 * n_epochs).saturating_sub(done));
     Ok(Some(training))
-}
-
-/// Returns the 25 strokes of the paper on each texture, each texture with its own noise.
-fn strokes(
-    args: &NetworkArgs,
-    library: &Library,
-    table: &AttributeTable,
-) -> anyhow::Result<Vec<StrokedTexture>> {
-    let contacts = paper_patterns();
-    let mut ids: Vec<String> = Vec::new();
-    let of = |(index, attributes): (&usize, &Vec<f64>)| {
-        let texture = &library.textures[*index];
-        let plan = PatternPlan {
-            contacts: &contacts,
-            seconds: PAPER_SECS * args.share,
-            rate: PAPER_RATE,
-            seed: derive_seed(args.seed, &texture.id),
-        };
-        let patterns =
-            render_patterns(&texture.model, &plan).with_context(|| format!("texture \"{}\"", texture.id))?;
-        for warning in &patterns.warnings {
-            output::warn(&format!("{}: {warning}", texture.id));
-        }
-        let strokes = patterns.signals.into_iter().zip(&contacts).map(|(accel_mps2, contact)| Stroke {
-            speed_mps: vec![contact.speed.0; accel_mps2.len()],
-            force_n: vec![contact.force.0; accel_mps2.len()],
-            accel_mps2,
-        });
-        // The state of each texture is saved in a file of this name.
-        let id = free_id(&id_from_name(&texture.id), |id| ids.iter().any(|taken| taken == id));
-        ids.push(id.clone());
-        Ok(StrokedTexture { id, strokes: strokes.collect(), attributes: attributes.clone() })
-    };
-    table.textures.iter().zip(&table.values).map(of).collect()
 }

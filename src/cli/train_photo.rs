@@ -1,27 +1,30 @@
 //! `shagreen train photo`: trains predictors of roughness and hardness from pictures and evaluates them.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context as _, ensure};
 use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
-use shagreen_core::surfaces::picture_features::N_FEATURES;
 use shagreen_core::words::counted;
-use shagreen_formats::library::{Library, USUAL_AXES};
+use shagreen_formats::atomic;
+use shagreen_formats::library::USUAL_AXES;
 use shagreen_formats::starter::starter_anchors;
-use shagreen_formats::{atomic, picture};
 use shagreen_learn::backbone::Backbone;
 use shagreen_learn::model_file::is_model;
 use shagreen_learn::picture_model::{FeatureExtractor, PictureConfig, PictureModel, TrainingMetadata};
 use shagreen_learn::picture_set::Seen;
 
 use crate::cli::backbone_source::{BackboneArgs, read_backbone};
-use crate::cli::drawn_pictures::{drawn_pictures, see_all};
+use crate::cli::drawn_pictures::{drawn_pictures, see_all, seen_by};
+use crate::cli::labelled_photos::PhotoFiles;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::method_predictions::{Comparison, MethodPredictions};
 use crate::cli::output;
+use crate::cli::prediction_figures::{FigureArgs, Judged};
 use crate::cli::progress::Progress;
+use crate::cli::texture_pictures::{PictureArgs, PicturedTexture, predict_texture};
+use crate::cli::train_labelled_photos::{LabelledArgs, Training};
 use shagreen_studio::file;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
@@ -32,13 +35,20 @@ use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 /// roughness and hardness are computed; no person rated them. Statistics of the picture need no other file; a
 /// pretrained image network (`shagreen model fetch`) is more accurate. On two cores, computing the features of 3,000
 /// pictures takes half an hour, and the leave-one-out training over 25 textures takes another half hour.
+///
+/// With --photos, the model learns from labelled photos of real materials too, and the errors are those on classes and
+/// sources of photos that were left out of the training.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
     #[command(flatten)]
     backbone: BackboneArgs,
-    /// Number of random materials to train on, in addition to the library.
+    #[command(flatten)]
+    pictures: PictureArgs,
+    #[command(flatten)]
+    labelled: LabelledArgs,
+    /// Number of random materials to train on, in addition to the library or to the labelled photos.
     #[arg(long, default_value_t = 3000, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     drawn: u32,
     /// Largest number of epochs.
@@ -53,8 +63,8 @@ pub(crate) struct Args {
     /// Random seed of the training and of the random materials.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Folder for the features of the pictures of random materials; they are computed only once, and an interrupted
-    /// computation resumes.
+    /// Folder for the features of the pictures of random materials and of labelled photos; they are computed only once,
+    /// and an interrupted computation resumes.
     #[arg(long, value_name = "FOLDER")]
     state: Option<PathBuf>,
     /// File to write: a model trained on all pictures, with the image network if there is one, otherwise with
@@ -66,8 +76,10 @@ pub(crate) struct Args {
     #[arg(long)]
     drawn_only: bool,
     /// Only train the model, without measuring its error.
-    #[arg(long, requires = "out")]
+    #[arg(long, requires = "out", conflicts_with = "figures")]
     unjudged: bool,
+    #[command(flatten)]
+    figures: FigureArgs,
     /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
@@ -76,15 +88,22 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let started = Instant::now();
     let backbone = read_backbone(&args.backbone)?;
+    let [table, heads] = args.labelled.inputs();
+    let inputs = [args.library.path(), args.backbone.path(), args.pictures.path(), table, heads];
     if let Some(out) = &args.out {
-        refuse_inputs(&[out], &[args.library.path(), args.backbone.path()])?;
+        refuse_inputs(&[out], &inputs)?;
         refuse_foreign(out, "a model", is_model)?;
         atomic::check_all(&[out])?;
     }
+    let names = USUAL_AXES.map(str::to_owned);
+    args.figures.check(&names, &inputs)?;
     if let Some(folder) = &args.state {
         std::fs::create_dir_all(folder)
             .context("cannot create the folder; check its name and your permissions")
             .with_context(|| file::in_file(folder))?;
+    }
+    if let Some(table) = args.labelled.table() {
+        return train_on_photos(args, table, backbone.as_ref());
     }
     let library = args.library.load()?;
     ensure!(
@@ -94,31 +113,28 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         library.axis_names().join(" and ")
     );
     let progress = Progress::endless("computing the features of the library's pictures");
-    let textures = pictured(&library, backbone.as_ref())?;
+    let textures = args.pictures.textures(&library, |picture| Ok(see_all(backbone.as_ref(), picture)?))?;
     progress.finish();
-    let kept = args.state.as_ref().map(|folder| folder.join(format!("drawn-{}.safetensors", args.seed)));
-    let drawn = drawn_pictures(
-        args.drawn as usize,
-        args.seed,
-        backbone.as_ref(),
-        &starter_anchors()?.1,
-        kept.as_deref(),
-    )?;
-    let values: Vec<Vec<f64>> = textures.iter().map(|seen| seen.labels.clone()).collect();
+    let drawn = drawn_of(args, backbone.as_ref())?;
+    let first = textures.iter().filter_map(|texture| texture.pictures.first());
+    let values: Vec<Vec<f64>> = first.map(|seen| seen.labels.clone()).collect();
+    let n_pictures: usize = textures.iter().map(|texture| texture.pictures.len()).sum();
+    let mut extent = counted(textures.len(), "texture");
+    if n_pictures > textures.len() {
+        extent = format!("{extent} with {}", counted(n_pictures, "picture"));
+    }
 
-    let of_drawn = format!("pictures of {}", counted(drawn.len(), "drawn material"));
-    let learned_from = if args.drawn_only {
-        of_drawn
-    } else {
-        format!("{of_drawn} and of \"{}\" ({})", library.name, counted(textures.len(), "texture"))
-    };
-    let (mut all, mut n_epochs, mut model) = (Vec::new(), 0, None);
+    let of_drawn = described(&drawn);
+    let learned_from =
+        if args.drawn_only { of_drawn } else { format!("{of_drawn} and of \"{}\" ({extent})", library.name) };
+    let (mut all, mut deviations, mut n_epochs, mut model) = (Vec::new(), Vec::new(), 0, None);
     // Statistics first, then the network; each uses its own part of the features.
     let network = backbone.as_ref().map(|backbone| FeatureExtractor::of(Some(backbone)));
     // Without an evaluation, only the model to write is trained.
     let statistics = (!args.unjudged || network.is_none()).then_some(FeatureExtractor::Statistics);
     for eyes in [statistics, network].into_iter().flatten() {
         let taught = teach(args, eyes, &learned_from, &drawn, &textures)?;
+        deviations.push((taught.judged.name.clone(), taught.deviations));
         all.push(taught.judged);
         n_epochs += taught.n_epochs;
         model = taught.of_all;
@@ -133,65 +149,76 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         output::print(args.json, &result, || format!("Wrote the model: {}", out.clone().unwrap_or_default()));
         return Ok(());
     }
-    let names = USUAL_AXES.map(str::to_owned);
+    let sources = library.label_sources();
+    let known_sources = sources.iter().filter(|source| **source != LabelSource::Estimated);
+    let drawing = args.figures.write(&Judged {
+        methods: &all,
+        deviations: &deviations,
+        textures: &textures.iter().map(|texture| texture.name.clone()).collect::<Vec<_>>(),
+        attributes: &names,
+        actual: &values,
+        validation: if args.drawn_only { "trained on drawn materials only" } else { "leave-one-texture-out" },
+        source: &known_sources.map(|source| source.label()).collect::<Vec<_>>().join(", "),
+    });
     let comparison = Comparison::new(&all, &names, &values);
     let mut result = comparison.as_json();
     let more = json!({
         "textures": textures.len(),
+        "pictures": n_pictures,
         "drawn": drawn.len(),
-        "label_source": library.label_sources().iter().map(|source| source.id()).collect::<Vec<_>>(),
+        "label_source": sources.iter().map(|source| source.id()).collect::<Vec<_>>(),
         "epochs": n_epochs,
+        "figures": args.figures.folder().map(|folder| folder.display().to_string()),
         "seconds": started.elapsed().as_secs_f64(),
     });
     result.extend(more.as_object().cloned().unwrap_or_default());
     output::print(args.json, &Value::Object(result), || {
         format!(
-            "{} {}; trained on {learned_from}. The labels of drawn materials (random parameters) are computed; no person rated them.\n\n{}",
+            "{} {extent}; trained on {learned_from}. The labels of drawn materials (random parameters) are computed; no person rated them.\n\n{}",
             if args.drawn_only {
                 "Errors, with no texture used for training, over"
             } else {
                 "Leave-one-texture-out errors over"
             },
-            counted(textures.len(), "texture"),
             comparison.text()
         )
     });
-    Ok(())
+    // After the result, which took hours and must not be lost with the figures.
+    drawing
 }
 
 /// Result of training on one kind of features.
 struct Taught {
     judged: MethodPredictions,
+    /// Standard deviations that the method states: textures × attributes, in points.
+    deviations: Vec<Vec<f64>>,
     /// Model trained on all pictures, if it is requested.
     of_all: Option<PictureModel>,
     /// Number of epochs of all trainings.
     n_epochs: usize,
 }
 
-/// Trains on drawn pictures and those of textures, with the features of `eyes`, without each texture in turn.
+/// Trains on drawn pictures and those of textures, with the features of `eyes`, without all pictures of each texture in
+/// turn.
 fn teach(
     args: &Args,
     eyes: FeatureExtractor,
     learned_from: &str,
     drawn: &[Seen],
-    textures: &[Seen],
+    textures: &[PicturedTexture],
 ) -> anyhow::Result<Taught> {
-    let part = |seen: &Seen| {
-        let (statistics, network) = seen.features.split_at(N_FEATURES);
-        let features = if eyes == FeatureExtractor::Statistics { statistics } else { network };
-        Seen { features: features.to_vec(), labels: seen.labels.clone() }
+    let drawn: Vec<Seen> = drawn.iter().map(|seen| seen_by(&eyes, seen)).collect();
+    let pictures = |texture: &PicturedTexture| -> Vec<Seen> {
+        texture.pictures.iter().map(|seen| seen_by(&eyes, seen)).collect()
     };
-    let drawn: Vec<Seen> = drawn.iter().map(part).collect();
-    let known: Vec<Seen> = textures.iter().map(part).collect();
+    let known: Vec<Vec<Seen>> = textures.iter().map(pictures).collect();
     let name = eyes.name().to_owned();
-    let attributes = USUAL_AXES.map(str::to_owned).to_vec();
-    let lesson = TrainingMetadata { eyes, attributes, learned_from: learned_from.to_owned() };
-    let config =
-        PictureConfig::paper(args.epochs as usize, args.patience as usize, args.heads as usize, args.seed);
-    let learned: Vec<&Seen> = if args.drawn_only { Vec::new() } else { known.iter().collect() };
+    let (lesson, config) = lesson(args, eyes, learned_from);
+    let learned: &[Vec<Seen>] = if args.drawn_only { &[] } else { &known };
     let mut n_epochs = 0;
     let mut learn = |left_out: Option<usize>| {
-        let others = learned.iter().enumerate().filter(|(i, _)| Some(*i) != left_out).map(|(_, seen)| *seen);
+        let others = learned.iter().enumerate().filter(|(i, _)| Some(*i) != left_out);
+        let others = others.flat_map(|(_, pictures)| pictures);
         let pictures: Vec<&Seen> = drawn.iter().chain(others).collect();
         let before = n_epochs;
         PictureModel::learn(&pictures, lesson.clone(), &config, |n| {
@@ -207,40 +234,55 @@ fn teach(
     };
     let n_judged = if args.unjudged { 0 } else { known.len() };
     let progress = Progress::new("training without each texture", n_judged);
-    let mut predicted = Vec::with_capacity(n_judged);
-    for (index, left_out) in known.iter().enumerate().take(n_judged) {
+    let (mut predicted, mut deviations) = (Vec::with_capacity(n_judged), Vec::with_capacity(n_judged));
+    for (index, pictures) in known.iter().enumerate().take(n_judged) {
         let estimates = match &of_all {
-            Some(model) if args.drawn_only => model.predict(&left_out.features)?,
-            _ => learn(Some(index))?.predict(&left_out.features)?,
+            Some(model) if args.drawn_only => predict_texture(model, pictures)?,
+            _ => predict_texture(&learn(Some(index))?, pictures)?,
         };
         predicted.push(estimates.iter().map(|of| of.mean).collect());
+        deviations.push(estimates.iter().map(|of| of.deviation).collect());
         progress.step();
     }
     progress.finish();
-    Ok(Taught { judged: MethodPredictions { name, predicted }, of_all, n_epochs })
+    Ok(Taught { judged: MethodPredictions { name, predicted }, deviations, of_all, n_epochs })
 }
 
-/// Returns the features of all textures that have a position and a picture.
-fn pictured(library: &Library, backbone: Option<&Backbone>) -> anyhow::Result<Vec<Seen>> {
-    let mut textures = Vec::new();
-    for texture in &library.textures {
-        let (Some(place), Some(packed)) = (&texture.place, &texture.picture) else { continue };
-        // An estimated position is itself a prediction.
-        if place.source == LabelSource::Estimated {
-            continue;
-        }
-        let pixels = picture::decode(packed).with_context(|| format!("the picture of \"{}\"", texture.id))?;
-        let picture = pixels.into_surface(packed.millimeters);
-        let features =
-            see_all(backbone, &picture).with_context(|| format!("the picture of \"{}\"", texture.id))?;
-        let labels = vec![place.at.rough_smooth, place.at.hard_soft];
-        textures.push(Seen { features, labels });
-    }
-    ensure!(
-        textures.len() >= 3,
-        "\"{}\" has only {} with a picture and a position that is not an estimate, but at least three are needed; add pictures to the library in the window",
-        library.name,
-        counted(textures.len(), "texture")
-    );
-    Ok(textures)
+/// Returns the metadata and the settings of a training of heads.
+fn lesson(args: &Args, eyes: FeatureExtractor, learned_from: &str) -> (TrainingMetadata, PictureConfig) {
+    let attributes = USUAL_AXES.map(str::to_owned).to_vec();
+    let lesson = TrainingMetadata { eyes, attributes, learned_from: learned_from.to_owned() };
+    let config =
+        PictureConfig::paper(args.epochs as usize, args.patience as usize, args.heads as usize, args.seed);
+    (lesson, config)
+}
+
+/// Returns the features of the drawn pictures.
+fn drawn_of(args: &Args, backbone: Option<&Backbone>) -> anyhow::Result<Vec<Seen>> {
+    let kept = args.state.as_ref().map(|folder| folder.join(format!("drawn-{}.safetensors", args.seed)));
+    drawn_pictures(args.drawn as usize, args.seed, backbone, &starter_anchors()?.1, kept.as_deref())
+}
+
+fn described(drawn: &[Seen]) -> String {
+    format!("pictures of {}", counted(drawn.len(), "drawn material"))
+}
+
+/// Trains on the labelled photos of a table, and on drawn pictures unless the heads for these are given.
+fn train_on_photos(args: &Args, table: &Path, backbone: Option<&Backbone>) -> anyhow::Result<()> {
+    let photos = PhotoFiles::read(table, backbone, args.seed, args.labelled.n_variations())?;
+    let training = Training {
+        eyes: FeatureExtractor::of(backbone),
+        state: args.state.as_deref(),
+        out: args.out.as_deref(),
+        figures: &args.figures,
+        seed: args.seed,
+        is_json: args.json,
+    };
+    args.labelled.train(&photos, &training, || {
+        let drawn = drawn_of(args, backbone)?;
+        let (lesson, config) = lesson(args, training.eyes.clone(), &described(&drawn));
+        let pictures: Vec<Seen> = drawn.iter().map(|seen| seen_by(&training.eyes, seen)).collect();
+        let _progress = Progress::endless("training on drawn materials");
+        Ok(PictureModel::learn(&pictures.iter().collect::<Vec<_>>(), lesson, &config, |_| true)?)
+    })
 }

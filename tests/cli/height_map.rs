@@ -2,6 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use tiff::encoder::TiffEncoder;
+use tiff::encoder::colortype::Gray32Float;
+
 use crate::support::{Bench, rms};
 
 /// A 16-bit PNG of ridges along y: eight of them on the width.
@@ -61,6 +64,34 @@ fn a_picture_of_ridges_is_felt_across_them_and_not_along_them() {
         let along = felt(0.0, mm_per_s);
         assert!(rms(&along) < 0.01 * rms(&across), "{} along, {} across", rms(&along), rms(&across));
     }
+}
+
+/// A TIFF of numbers of single precision.
+fn float_tiff(side: u32, number: impl Fn(u32, u32) -> f32) -> Vec<u8> {
+    let numbers: Vec<f32> = (0..side * side).map(|i| number(i % side, i / side)).collect();
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
+    encoder.write_image::<Gray32Float>(side, side, &numbers).unwrap();
+    bytes.into_inner()
+}
+
+/// Measured heights in any unit: the lowest and the highest number have the stated difference.
+#[test]
+fn a_tiff_of_measured_heights_becomes_a_height_map() {
+    let bench = Bench::new();
+    let wave = |x: u32, _: u32| 0.25 + 0.002 * (std::f32::consts::TAU * x as f32 / 32.0).cos();
+    bench.write("measured.tif", float_tiff(128, wave));
+    let said = bench
+        .run("library relief measured.tif --side-mm 20 --height-um 80 --texture cork -o made.json --json");
+    assert_eq!(said.code, 0, "{}", said.stderr);
+    assert!(said.stderr.contains("0 µm (lowest) to 80 µm (highest)"), "{}", said.stderr);
+    let made: serde_json::Value = serde_json::from_str(&said.stdout).unwrap();
+    let close = |key: &str, wanted: f64| (made[key].as_f64().unwrap() - wanted).abs() < 0.01;
+    assert!(close("low_um", -40.0) && close("high_um", 40.0), "{made}");
+    assert_eq!((&made["seamless"], &made["assumed"]), (&true.into(), &false.into()));
+    bench.write("gaps.tif", float_tiff(32, |x, y| if x == y { f32::NAN } else { x as f32 }));
+    let line = "library relief gaps.tif --side-mm 20 --height-um 80 --texture cork -o no.json";
+    bench.fails(line, 1, &["no measurements", "fill these gaps", "gaps.tif"]);
 }
 
 /// What a picture does not say is asked for, and what is assumed of a photo is said.

@@ -107,7 +107,9 @@ fn a_space_is_built_from_a_simulated_panel() {
             && page.contains("nested cross-validation r")
             && page.contains("Shepard")
     );
-    assert_eq!(std::fs::read_dir(bench.path("figures")).unwrap().count(), 16);
+    // Nine figures, and the mean ratings on five pairs, each as SVG and CSV.
+    assert_eq!(std::fs::read_dir(bench.path("figures")).unwrap().count(), 2 * (9 + 5));
+    assert_eq!((&report["judgments"], &report["absent"]), (&json!("sorts and ratings"), &json!([])));
     // The second built-in library was made this way.
     bench.json("library places --library l2.json --out places.csv");
     let built_in = include_str!("../../assets/starter/simulated.csv");

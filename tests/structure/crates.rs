@@ -91,12 +91,18 @@ fn the_gate_can_fail() {
     assert!(broken_rules(downwards).is_empty());
 }
 
-/// Returns the files in `src/cli` that name the window's crate.
+/// Returns the files below `src/cli` that name the window's crate.
 fn command_line_files_that_see_the_window(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).expect("the command line");
-    let files = entries.map(|entry| entry.expect("an entry").path());
-    let sees = |path: &PathBuf| sees_the_window(&std::fs::read_to_string(path).expect("a source file"));
-    files.filter(sees).map(|path| path.display().to_string()).collect()
+    let mut seen = Vec::new();
+    for entry in std::fs::read_dir(folder).expect("the command line") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            seen.extend(command_line_files_that_see_the_window(&path));
+        } else if sees_the_window(&std::fs::read_to_string(&path).expect("a source file")) {
+            seen.push(path.display().to_string());
+        }
+    }
+    seen
 }
 
 fn sees_the_window(text: &str) -> bool {

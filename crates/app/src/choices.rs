@@ -2,6 +2,7 @@
 //! matches on them, so that every option has a label.
 
 pub mod conflict;
+pub mod networks;
 pub mod scope;
 pub mod signals;
 pub mod textures;

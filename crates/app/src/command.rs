@@ -1,6 +1,7 @@
 //! Commands of the user and their keyboard shortcuts.
 
 pub mod clipboard;
+pub mod networks;
 pub mod prompt;
 pub mod relief;
 pub mod signals;
@@ -11,6 +12,7 @@ use std::path::PathBuf;
 use egui::{Event, Key, KeyboardShortcut, Modifiers};
 
 use crate::command::clipboard::ClipboardCommand;
+use crate::command::networks::NetworksCommand;
 use crate::command::prompt::PromptCommand;
 use crate::command::relief::ReliefCommand;
 use crate::state::leave::Leave;
@@ -21,11 +23,12 @@ use shagreen_studio::export::WAV;
 
 use crate::command::signals::SignalsCommand;
 use crate::command::stroke::StrokeCommand;
+use crate::state::blank_file::BlankFile;
 use crate::state::compare::{CompareCommand, Side};
 use crate::state::edit::Edit;
 use crate::state::figure_file::FigureFile;
 use crate::state::rig::Rig;
-use crate::strings::{about, relief as relief_words};
+use crate::strings::{about, networks as networks_words, relief as relief_words};
 use crate::workspace::Workspace;
 
 /// Command of the user, executed after the frame.
@@ -104,6 +107,8 @@ pub enum Command {
     OpenSave,
     /// Opens the sheet that saves a figure.
     SaveFigure(FigureFile),
+    /// Opens the sheet that saves a blank table or the instructions of a questionnaire.
+    SaveBlank(BlankFile),
     /// Closes the open sheet.
     CloseSheet,
     /// Sets a photo as the picture of the selected texture.
@@ -136,6 +141,8 @@ pub enum Command {
     Signals(SignalsCommand),
     /// Command about prompts and photos.
     Prompt(PromptCommand),
+    /// Command about the networks that predict attributes from photos.
+    Networks(NetworksCommand),
     /// Command about reliefs from pictures.
     Relief(ReliefCommand),
     /// Command about stroke recordings.
@@ -250,7 +257,7 @@ const FILES_AND_EDITS: [Command; 12] = [
     Command::Redo,
 ];
 
-const OTHERS: [Command; 29] = [
+const OTHERS: [Command; 30] = [
     Command::Clipboard(ClipboardCommand::Copy(None)),
     Command::Clipboard(ClipboardCommand::Cut(None)),
     Command::Clipboard(ClipboardCommand::Paste),
@@ -276,6 +283,7 @@ const OTHERS: [Command; 29] = [
     Command::TakeOverOutput,
     Command::ToggleTheme,
     Command::OpenDevices,
+    Command::Networks(NetworksCommand::Open),
     Command::OpenGuide,
     Command::OpenShortcuts,
     Command::BeginTour,
@@ -323,6 +331,7 @@ impl Command {
             Self::TakeOverOutput => Entry::new("Take over the output from another Shagreen"),
             Self::ToggleTheme => Entry::new("Switch between dark and light theme").command(Key::T),
             Self::OpenDevices => Entry::new("Devices").command_shift(Key::D),
+            Self::Networks(NetworksCommand::Open) => Entry::new(networks_words::COMMAND),
             Self::Clipboard(ClipboardCommand::Copy(_)) => {
                 Entry::new("Copy the authored texture").command(Key::C)
             }

@@ -8,6 +8,7 @@ pub(crate) mod folders_ui;
 pub(crate) mod gallery_sheet;
 pub(crate) mod guide_sheet;
 pub mod import;
+pub(crate) mod networks_sheet;
 pub(crate) mod open_sheet;
 pub(crate) mod outside_library;
 pub(crate) mod palette;
@@ -22,6 +23,7 @@ pub(crate) mod unsaved_changes;
 use std::path::Path;
 
 use egui::{Align2, Context, DroppedFileHandle, FontId, Id, LayerId, Order, Popup, Stroke, StrokeKind};
+use shagreen_formats::picture::PHOTO_ENDINGS;
 use shagreen_formats::project::EXTENSION;
 use shagreen_studio::file::ending_of;
 use shagreen_studio::open::is_other_kind;
@@ -42,6 +44,7 @@ use crate::sheets::gallery_sheet::GallerySheet;
 use crate::sheets::guide_sheet::GuideSheet;
 use crate::sheets::import::import_context::ImportContext;
 use crate::sheets::import::sheet::ImportSheet;
+use crate::sheets::networks_sheet::NetworksSheet;
 use crate::sheets::open_sheet::OpenSheet;
 use crate::sheets::outside_library::OutsideLibrarySheet;
 use crate::sheets::palette::PaletteSheet;
@@ -73,6 +76,8 @@ pub(crate) enum Sheet {
     Export(Box<ExportSheet>),
     /// Settings of the output, its actuator and the pen.
     Devices(Box<DevicesSheet>),
+    /// Networks that predict attributes from photos.
+    Networks(Box<NetworksSheet>),
     /// Opens a project, library, stroke or signal.
     Open(OpenSheet),
     /// Opens an example project.
@@ -99,9 +104,6 @@ pub(crate) enum Sheet {
     /// Offers projects that a crashed program left behind.
     Recovered(Vec<Leftover>),
 }
-
-/// Endings of the names of pictures.
-pub(crate) const PICTURE_ENDINGS: [&str; 3] = ["jpg", "jpeg", "png"];
 
 /// Target of files dropped on a workspace with file types of its own.
 #[derive(Clone, Copy)]
@@ -161,6 +163,7 @@ impl Sheet {
             Self::Save(sheet) => sheet.show(ctx, session.library()),
             Self::Export(sheet) => sheet.show(ctx, panel),
             Self::Devices(sheet) => sheet.show(ctx, session),
+            Self::Networks(sheet) => sheet.show(ctx),
             Self::Open(sheet) => sheet.show(ctx, document.is_opening()),
             Self::Gallery(sheet) => sheet.show(ctx),
             Self::Texture(sheet) => sheet.show(ctx, panel),
@@ -262,7 +265,7 @@ pub(crate) fn command_for(path: &Path) -> Option<Command> {
 
 /// Whether a file is a photo, from the ending of its name.
 pub(crate) fn is_photo(path: &Path) -> bool {
-    PICTURE_ENDINGS.contains(&ending_of(path).as_str())
+    PHOTO_ENDINGS.contains(&ending_of(path).as_str())
 }
 
 /// Draws over the whole window which files may be dropped.

@@ -6,6 +6,7 @@
 pub(crate) mod audible_texture;
 pub(crate) mod background;
 pub mod bench_signal;
+pub(crate) mod blank_file;
 pub mod clipboard;
 pub mod compare;
 pub mod conflict;

@@ -22,6 +22,7 @@ pub mod help;
 pub mod import;
 pub mod map;
 pub mod motion;
+pub mod networks;
 pub mod path;
 pub mod prompt;
 pub mod relief;

@@ -131,8 +131,9 @@ impl Window {
         // Without a settings file the tour would start at every program start, so it is not shown.
         let can_remember = keeping.settings.is_some();
         let sheet = if leftovers.is_empty() { Sheet::Closed } else { Sheet::Recovered(leftovers) };
-        let prompts = Prompts::new(keeping.models.clone().map(ModelFolder::new));
+        let mut prompts = Prompts::new(keeping.models.clone().map(ModelFolder::new));
         let files = Files::new(&project, file, keeping);
+        prompts.use_networks(files.settings.photo_networks.clone());
         let selected_output = SelectedOutput::at_start(&output);
         open_as_left(&mut session, output, &files, ctx);
         session.follow(&project, None, ctx);

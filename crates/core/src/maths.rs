@@ -2,14 +2,21 @@
 //!
 //! Input: slices and matrices of `f64`. Output: numbers, fitted models and triangulations.
 
+pub mod birge;
+pub mod class_distance;
 pub mod gaussian_process;
 pub mod isotonic;
 pub mod least_squares;
+pub mod minimize;
+pub mod multinomial;
 pub mod natural_neighbor;
 pub mod procrustes;
 pub mod radial_basis;
+pub mod ridge;
 pub mod rng;
 pub(crate) mod smoother;
 pub mod statistics;
 pub(crate) mod sums;
 pub mod triangulation;
+pub mod variance_components;
+pub mod weighted_statistics;

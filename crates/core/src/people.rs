@@ -1,9 +1,10 @@
 //! Human judgments of textures: free sorting, ratings, and the perceptual space that scaling derives from them.
 //!
 //! Inputs: group labels and ratings per participant and texture. Outputs: agreement, dissimilarities, a configuration
-//! from multidimensional scaling ([`mds`]) and the adjective directions in it ([`property`]). [`panel`] simulates
-//! participants.
+//! from multidimensional scaling ([`mds`]), the adjective directions in it ([`property`]) and the principal components
+//! of mean ratings ([`components`]). [`panel`] simulates participants.
 
+pub mod components;
 pub mod dissimilarities;
 pub mod mds;
 pub mod panel;

@@ -18,6 +18,7 @@ pub mod segment;
 mod spike;
 mod stretch;
 pub mod tap_transients;
+mod three_axes;
 
 use std::ops::Range;
 
@@ -27,6 +28,7 @@ pub use crate::recording::fault::{Fault, MAX_RATE_HZ, MIN_RATE_HZ, MIN_USABLE_SE
 pub use crate::recording::finding::{Finding, Where};
 pub use crate::recording::motion::{SPEED_CUTOFF_HZ, speed_from_positions};
 pub use crate::recording::raw::{RawClock, RawMotion, RawRecording, RawTrack};
+pub use crate::recording::three_axes::ThreeAxisRecording;
 
 use crate::units::Hertz;
 

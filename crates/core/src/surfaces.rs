@@ -8,6 +8,8 @@ pub mod felt_material;
 pub mod generated;
 pub mod height_field;
 pub mod material;
+pub mod photo_variation;
+pub mod picture_doubts;
 pub mod picture_features;
 pub mod prompt;
 pub mod prompt_material;

@@ -28,7 +28,8 @@ const MOST_SEAM: f64 = 1.5;
 pub struct HeightScale {
     /// Side of the surface in the central square of the picture, in m.
     pub side_m: f64,
-    /// Height of white above black, in m.
+    /// Height of white above black, in m. If the picture [is stretched](PictureTile::is_stretched), that of its highest
+    /// pixel above its lowest one.
     pub height_m: f64,
 }
 
@@ -74,10 +75,13 @@ pub struct PictureTile {
     pub is_seamless: bool,
     /// Whether the picture has colors: it is a photo rather than a measured height map.
     pub is_colored: bool,
+    /// Whether black and white are the lowest and the highest number in the file
+    /// ([`Brightness::is_stretched`]).
+    pub is_stretched: bool,
 }
 
 impl PictureTile {
-    /// Reads the bytes of a JPEG or PNG, of which brightness (up to 16 bits in a PNG) will be the height.
+    /// Reads the bytes of a photo or height map, of which brightness (up to 16 bits) will be the height.
     ///
     /// # Errors
     /// [`HeightPictureError::Picture`], [`HeightPictureError::Small`] and [`HeightPictureError::Flat`].
@@ -109,8 +113,8 @@ impl PictureTile {
             || pixels_of(&[gray.tile(n, is_seamless)], n),
             |rgb| pixels_of(&channels_of(rgb).map(|channel| channel.tile(n, is_seamless)), n),
         );
-        let is_colored = picture.is_colored;
-        Ok(Self { brightness: tile, side_share, pixels, is_seamless, is_colored })
+        let Brightness { is_colored, is_stretched, .. } = picture;
+        Ok(Self { brightness: tile, side_share, pixels, is_seamless, is_colored, is_stretched })
     }
 
     /// The height map of the tile in this size, with zero mean.

@@ -1,6 +1,7 @@
 //! The lexicon of touch words, read from a TOML file. The built-in one is `assets/words/lexicon.toml`, which documents
 //! its fields.
 
+use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use serde::Deserialize;
@@ -64,6 +65,10 @@ struct FileV1 {
     shade: Vec<ShadeV1>,
     size: Vec<SizeV1>,
     degree: Vec<DegreeV1>,
+    #[serde(default)]
+    depictions: Vec<String>,
+    #[serde(default)]
+    classes: BTreeMap<String, String>,
 }
 
 /// Mean and standard deviation, on a scale of 0 to 100.
@@ -187,7 +192,7 @@ pub fn read_lexicon(text: &str) -> Result<Lexicon, LexiconFileError> {
         let reach = within(&word, "reach", of.reach, -1.0, 1.0)?;
         entries.push((of.words, Meaning::Degree { weight, reach }));
     }
-    Ok(Lexicon::new(entries)?)
+    Ok(Lexicon::new(entries)?.with_depictions(file.depictions)?.with_classes(file.classes)?)
 }
 
 fn name(words: &[String]) -> String {
@@ -231,66 +236,4 @@ fn within(word: &str, what: &'static str, value: f64, low: f64, high: f64) -> Re
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{built_in_lexicon, read_lexicon};
-    use crate::starter::starter_library;
-    use shagreen_core::surfaces::prompt::interpret;
-    use shagreen_core::surfaces::touch_words::Meaning;
-
-    #[test]
-    fn the_words_of_the_program_are_sound() {
-        let lexicon = built_in_lexicon().unwrap();
-        let library = starter_library().unwrap();
-        let mut n_surfaces = 0;
-        for (word, _) in lexicon.words() {
-            if let Some((_, Meaning::Surface { like, hints, .. })) = lexicon.get(word) {
-                n_surfaces += 1;
-                assert!(
-                    library.textures.iter().any(|texture| texture.id == *like),
-                    "{word} refers to the missing texture {like}"
-                );
-                assert!(hints.iter().all(Option::is_some), "{word} has no estimate of some attribute");
-            }
-        }
-        assert!(n_surfaces > 500, "{n_surfaces}");
-    }
-
-    #[test]
-    fn names_of_the_starter_library_lead_to_their_places() {
-        let lexicon = built_in_lexicon().unwrap();
-        let library = starter_library().unwrap();
-        for texture in &library.textures {
-            let understood = interpret(&texture.name, lexicon);
-            let at = texture.at().unwrap();
-            let [rough, hard, ..] = understood.attributes;
-            assert!(
-                (rough.mean - at.rough_smooth).abs() < 2.0 * rough.deviation,
-                "{}: {rough:?}",
-                texture.name
-            );
-            assert!((hard.mean - at.hard_soft).abs() < 2.0 * hard.deviation, "{}: {hard:?}", texture.name);
-            assert!(understood.unknown.is_empty(), "{}: {:?}", texture.name, understood.unknown);
-        }
-    }
-
-    #[test]
-    fn files_that_make_no_sense_are_refused() {
-        const FRAME: &str = "negations = []\nfillers = []\nsurface = []\nquality = []\npattern = []\ncolor = []\nshade = []\nsize = []\ndegree = []";
-        assert!(read_lexicon(FRAME).is_ok());
-        let with = |from: &str, to: &str| read_lexicon(&FRAME.replace(from, to)).unwrap_err().to_string();
-        for (from, to, expected) in [
-            ("fillers = []", "fillers = [\"a\", \"a\"]", "\"a\" is listed twice"),
-            (
-                "quality = []",
-                "quality = [{ words = [\"rough\"], rough-smooth = [140, 8] }]",
-                "a mean of \"rough\" is 140",
-            ),
-            ("quality = []", "quality = [{ words = [\"rough\"] }]", "no estimate of any attribute"),
-            ("size = []", "size = [{ words = [\"tiny\"], factor = 0 }]", "factor of \"tiny\" is 0"),
-            ("size = []", "size = [{ words = [\"tiny\"], factor = 1, of = 2 }]", "unknown field"),
-        ] {
-            let error = with(from, to);
-            assert!(error.contains(expected), "{error}");
-        }
-    }
-}
+mod tests;

@@ -43,6 +43,37 @@ pub enum SimulatedRaterLabelsError {
     Pair(#[from] PairNameError),
 }
 
+impl SimulatedRaterLabels {
+    /// Returns the labels on these pairs, and the pairs that have none. A pair that is known with exchanged poles gets its
+    /// labels from the other end.
+    pub fn on(&self, pairs: &[AdjectivePair]) -> (Self, Vec<AdjectivePair>) {
+        let is = |a: &str, b: &str| a.trim().eq_ignore_ascii_case(b.trim());
+        let column = |pair: &AdjectivePair| {
+            self.pairs.iter().enumerate().find_map(|(column, known)| {
+                let is_same = is(&known.low, &pair.low) && is(&known.high, &pair.high);
+                let is_turned = is(&known.low, &pair.high) && is(&known.high, &pair.low);
+                (is_same || is_turned).then_some((column, is_turned))
+            })
+        };
+        let (mut known, mut unknown) = (Vec::new(), Vec::new());
+        for pair in pairs {
+            match column(pair) {
+                Some(found) => known.push((pair.clone(), found)),
+                None => unknown.push(pair.clone()),
+            }
+        }
+        let row = |labels: &Vec<f64>| -> Vec<f64> {
+            let label = |(_, (column, is_turned)): &(AdjectivePair, (usize, bool))| {
+                if *is_turned { 100.0 - labels[*column] } else { labels[*column] }
+            };
+            known.iter().map(label).collect()
+        };
+        let labels = self.labels.iter().map(row).collect();
+        let pairs = known.into_iter().map(|(pair, _)| pair).collect();
+        (Self { pairs, ids: self.ids.clone(), labels }, unknown)
+    }
+}
+
 /// Returns the labels of a library.
 ///
 /// # Errors
@@ -101,6 +132,7 @@ mod tests {
     use super::{SimulatedRaterLabelsError, panel_labels};
     use crate::library::{Attribute, Attributes, Library};
     use crate::starter::starter_library;
+    use shagreen_core::people::ratings::AdjectivePair;
     use shagreen_core::space::LabelSource;
 
     #[test]
@@ -114,14 +146,24 @@ mod tests {
             texture.attributes = Some(Attributes { source: LabelSource::PhysicalLabels, values });
         }
         let labels = panel_labels(&library).unwrap();
-        let names: Vec<String> =
-            labels.pairs.iter().map(shagreen_core::people::ratings::AdjectivePair::name).collect();
+        let names: Vec<String> = labels.pairs.iter().map(AdjectivePair::name).collect();
         let five = ["rough-smooth", "hard-soft", "flat-bumpy", "sticky-slippery", "irritating-pleasant"];
         assert_eq!(names, five);
         assert_eq!((labels.ids.len(), labels.labels.len(), labels.labels[0].len()), (24, 24, 5));
         assert!(labels.labels.iter().flatten().all(|value| (0.0..=100.0).contains(value)), "{labels:?}");
         let slippery: Vec<f64> = labels.labels.iter().map(|of| of[3]).collect();
         assert!(slippery.contains(&0.0) && slippery.contains(&100.0));
+        // Other pairs are taken out of them, from either end.
+        let pairs = ["slippery-sticky", "thick-thin", "rough-smooth"]
+            .map(|name| name.parse::<AdjectivePair>().unwrap());
+        let (on_pairs, unknown) = labels.on(&pairs);
+        assert_eq!(
+            (on_pairs.pairs.as_slice(), unknown.as_slice()),
+            (&[pairs[0].clone(), pairs[2].clone()][..], &pairs[1..2])
+        );
+        for (row, all) in on_pairs.labels.iter().zip(&labels.labels) {
+            assert_eq!(*row, [100.0 - all[3], all[0]]);
+        }
         // The position takes precedence over the attribute of the same name.
         assert_eq!(labels.labels[4][1], library.textures[5].at().unwrap().hard_soft);
         assert_eq!(labels.labels[4][2], 5.0);

@@ -1,80 +1,130 @@
 //! Results of building a space: a JSON report for scripts and figures for people.
+//!
+//! A report of a space from ratings alone has the same fields. Those that need sorts are null or empty, and the field
+//! `absent` names them.
+
+mod figures;
 
 use serde_json::{Value, json};
-use shagreen_core::people::mds::Transform;
-use shagreen_core::people::property::correlation_table;
-use shagreen_core::people::ratings::Agreement;
+use shagreen_core::people::components::RatingComponents;
+use shagreen_core::people::ratings::{Agreement, RaterFit};
+use shagreen_core::people::sorting::SorterFit;
 use shagreen_core::space::selection::PaperChain;
 use shagreen_core::space::space_build::{
-    Adjective, Axis, DegenerateScaling, PlacedBy, Prediction, SpaceBuild, kruskal_word, stress_in_words,
-    stress_of_random_data, validation_summary,
+    Adjective, Axis, DegenerateScaling, PlacedBy, Prediction, SpaceBuild, Stability, position_errors,
+    stress_in_words, stress_of_random_data, validation_summary,
 };
 
-use crate::figure::{Chart, Figure, Mark, Point, Scale, Series, Table, Tone};
+pub use crate::space_report::figures::{RATING_FIGURE, figure_names, space_figures};
 
 /// Value of the `format` field of a report.
 pub const FORMAT: &str = "shagreen-space-report";
-/// Names of the figures, in order.
-pub const FIGURES: [&str; 8] = [
-    "stress",
-    "perceptual-space",
-    "correlations",
-    "adjectives",
-    "predicted-1",
-    "predicted-2",
-    "authoring-space",
-    "shepard",
-];
 
 /// Version of the report.
-const VERSION: &str = "1.3";
+const VERSION: &str = "1.4";
 
 /// Returns the report: all results of the analysis in one JSON object.
 pub fn space_report(build: &SpaceBuild) -> Value {
     let options = &build.options;
-    json!({
+    let of_sorts = of_sorts(build);
+    let has_sorts = build.perceptual.is_some();
+    let absent = of_sorts.iter().map(|(name, _)| *name).chain(["positions.perceptual"]);
+    let mut report = json!({
         "format": FORMAT,
         "version": VERSION,
         "label_source": build.source.id(),
         "position_source": build.place_source().id(),
+        "judgments": if has_sorts { "sorts and ratings" } else { "ratings" },
+        "absent": absent.filter(|_| !has_sorts).collect::<Vec<_>>(),
+        "why_absent": (!has_sorts).then_some("there are no sorts"),
         "textures": build.textures.len(),
-        "not_placed": build.not_sorted,
-        "dimensions": options.n_dims,
-        "stress": build.stress,
-        "stress_chosen": build.perceptual.stress,
-        "ties": options.mds.transform.id(),
-        "degenerate": build.degenerate.as_ref().map(degenerate),
-        "converged": build.perceptual.converged,
-        "stress_in_words": stress_in_words(build),
-        "stress_of_random_data": stress_of_random_data(build),
+        "not_placed": build.not_placed,
         "adjectives": build.adjectives.iter().map(adjective).collect::<Vec<_>>(),
         "axes": build.axes.iter().map(|axis| self::axis(build, axis)).collect::<Vec<_>>(),
-        "angle_degrees": build.angle_degrees,
-        "axes_turned_orthogonal": options.is_orthogonal,
-        "stability": build.stability.as_ref().map(|stability| json!({
-            "draws": stability.n_draws,
-            "failed_draws": stability.n_failed,
-            "deviation": stability.typical,
-            "angle_deviation_degrees": stability.angle_deviation_degrees,
-        })),
+        "axis_correlation": build.axis_correlation,
+        "mean_rating_components": build.components.as_ref().ok().map(|found| components(build, found)),
+        "why_no_components": build.components.as_ref().err().map(ToString::to_string),
+        "standard_error": position_errors(build),
         "features": {"kind": options.features.id(), "label": build.features.label, "n": build.features.names.len()},
         "selection": options.method.id(),
         "placed_by": placed_by(build).map_or("felt+predicted", PlacedBy::id),
         "positions": positions(build),
-        "raters": build.raters.iter().map(|(name, fit)| json!({
-            "participant": name,
-            "ratings": fit.n_ratings,
-            "correlation_with_others": fit.correlation,
-            "outlying": fit.outlying,
-        })).collect::<Vec<_>>(),
-        "sorters": build.similarity.agreements.iter().map(|agreement| json!({
-            "participant": agreement.participant,
-            "correlation_with_others": agreement.correlation,
-        })).collect::<Vec<_>>(),
+        "raters": build.raters.iter().map(|(name, fit)| rater(build, name, fit)).collect::<Vec<_>>(),
         "missing_ratings": build.n_missing_ratings,
         "seed": options.seed,
         "verdict": validation_summary(build),
         "warnings": build.findings,
+    });
+    for (name, value) in of_sorts {
+        report[name] = value;
+    }
+    report
+}
+
+/// Fields that need sorts; without sorts, they are null or empty.
+fn of_sorts(build: &SpaceBuild) -> [(&'static str, Value); 12] {
+    let options = &build.options;
+    let space = build.perceptual.as_ref();
+    let stress: &[f64] = space.map_or(&[][..], |space| space.stress.as_slice());
+    let sorters: Vec<Value> = space.map_or_else(Vec::new, |space| {
+        let sorter = |fit: &SorterFit| {
+            json!({"participant": fit.participant, "correlation_with_others": fit.correlation})
+        };
+        space.similarity.agreements.iter().map(sorter).collect()
+    });
+    [
+        ("dimensions", json!(space.map(|_| options.n_dims))),
+        ("stress", json!(stress)),
+        ("stress_chosen", json!(space.map(|space| space.configuration.stress))),
+        ("ties", json!(space.map(|_| options.mds.transform.id()))),
+        ("degenerate", json!(space.and_then(|space| space.degenerate.as_ref()).map(degenerate))),
+        ("converged", json!(space.map(|space| space.configuration.converged))),
+        ("stress_in_words", json!(stress_in_words(build))),
+        ("stress_of_random_data", json!(stress_of_random_data(build))),
+        ("angle_degrees", json!(space.map(|space| space.angle_degrees))),
+        ("axes_turned_orthogonal", json!(space.map(|_| options.is_orthogonal))),
+        ("stability", json!(build.stability.as_ref().map(stability))),
+        ("sorters", json!(sorters)),
+    ]
+}
+
+/// Bootstrap stability of the positions.
+fn stability(stability: &Stability) -> Value {
+    json!({
+        "draws": stability.n_draws,
+        "failed_draws": stability.n_failed,
+        "deviation": stability.typical,
+        "angle_deviation_degrees": stability.angle_deviation_degrees,
+    })
+}
+
+/// Agreement of a rater with the others. Pairs are listed on which the person always gave the same rating, or rated
+/// opposite to the others.
+fn rater(build: &SpaceBuild, name: &str, fit: &RaterFit) -> Value {
+    // Adjectives are in the order of the pairs of the table.
+    let named = |pairs: &[usize]| -> Vec<String> {
+        pairs.iter().map(|pair| build.adjectives[*pair].pair.name()).collect()
+    };
+    json!({
+        "participant": name,
+        "ratings": fit.n_ratings,
+        "correlation_with_others": fit.correlation,
+        "outlying": fit.outlying,
+        "constant_on": named(&fit.constant_pairs),
+        "reversed_on": named(&fit.reversed_pairs),
+    })
+}
+
+/// Principal components of the mean ratings.
+fn components(build: &SpaceBuild, found: &RatingComponents) -> Value {
+    json!({
+        "adjectives": found.pairs.iter().map(|pair| build.adjectives[*pair].pair.name()).collect::<Vec<_>>(),
+        "textures": found.n_textures,
+        "eigenvalues": found.eigenvalues,
+        "explained": found.explained,
+        "loadings": found.loadings,
+        "random_eigenvalues_95": found.random_eigenvalues,
+        "dimensions": found.n_dims,
     })
 }
 
@@ -111,9 +161,13 @@ fn adjective(adjective: &Adjective) -> Value {
         "relevance": adjective.relevance,
         "relevant": adjective.is_relevant,
         "means": adjective.ratings.iter().map(|average| average.mean).collect::<Vec<_>>(),
+        "standard_errors": adjective.ratings.iter().map(|average| average.standard_error).collect::<Vec<_>>(),
         "half_widths_95": adjective.ratings.iter().map(|average| average.half_width).collect::<Vec<_>>(),
+        "raters": adjective.ratings.iter().map(|average| average.n_raters).collect::<Vec<_>>(),
         "icc_single": icc(|a| [a.single.value, a.single.low, a.single.high]),
         "icc_mean": icc(|a| [a.average.value, a.average.low, a.average.high]),
+        "alpha": icc(|a| [a.alpha.value, a.alpha.low, a.alpha.high]),
+        "why_no_agreement": adjective.agreement.as_ref().err().map(ToString::to_string),
     })
 }
 
@@ -171,46 +225,34 @@ fn positions(build: &SpaceBuild) -> Vec<Value> {
             "at": [build.positions[i].rough_smooth, build.positions[i].hard_soft],
             "felt": [first.felt[i], second.felt[i]],
             "felt_deviation": build.stability.as_ref().map(|stability| stability.deviations[i]),
+            "felt_standard_error": build.perceptual.is_none().then(|| standard_errors(build, i)),
             "predicted": of_both(&|prediction| prediction.predicted[i]),
             "nested_predicted": of_both(&|prediction| prediction.validation.predicted[i]),
-            "perceptual": build.perceptual.points[i],
+            "perceptual": build.perceptual.as_ref().map(|space| &space.configuration.points[i]),
         })
     };
     build.textures.iter().enumerate().map(position).collect()
 }
 
-/// Returns the figures that are common in papers, each with a short name for files.
-pub fn space_figures(build: &SpaceBuild) -> Vec<(&'static str, Figure)> {
-    let figures = [
-        stress(build),
-        perceptual(build),
-        correlations(build),
-        adjectives(build),
-        predicted(build, &build.axes[0]),
-        predicted(build, &build.axes[1]),
-        authoring(build),
-        shepard(build),
-    ];
-    let mut figures: Vec<(&'static str, Figure)> = FIGURES.into_iter().zip(figures).collect();
-    for (name, figure) in &mut figures {
-        figure.set_source(build.source.label());
-        if *name == "authoring-space" && build.place_source() != build.source {
-            figure.set_source(&format!("{} from {}", build.place_source().label(), build.source.label()));
-        }
-    }
-    figures
+/// Standard errors of the mean ratings of a texture on both axes; `None` with a single rating.
+fn standard_errors(build: &SpaceBuild, texture: usize) -> [Option<f64>; 2] {
+    build.axes.each_ref().map(|axis| build.adjectives[axis.adjective].ratings[texture].standard_error)
 }
 
 /// A one-line description of the data behind all figures.
 pub fn space_subtitle(build: &SpaceBuild) -> String {
+    let sorters = match &build.perceptual {
+        Some(space) => format!("{} sorters", space.similarity.agreements.len()),
+        None => "no sorts".to_owned(),
+    };
     format!(
-        "{} textures, {}: {} sorters, {} raters, seed {}; {} from {}, feature selection {}",
+        "{} textures, {}: {sorters}, {} raters, seed {}; {} from {}, feature selection {}",
         build.textures.len(),
         build.source.label(),
-        build.similarity.agreements.len(),
         build.raters.len(),
         build.options.seed,
         match placed_by(build) {
+            Some(PlacedBy::Felt) if build.perceptual.is_none() => "mean ratings, predictions".to_owned(),
             Some(PlacedBy::Felt) => "perceptual positions, predictions".to_owned(),
             Some(PlacedBy::Predicted) => "predicted positions".to_owned(),
             None => {
@@ -221,183 +263,5 @@ pub fn space_subtitle(build: &SpaceBuild) -> String {
         },
         build.features.label,
         build.options.method.id()
-    )
-}
-
-fn series(name: &str, mark: Mark, tone: Tone, points: Vec<Point>) -> Series {
-    Series { name: name.to_owned(), mark, tone, points }
-}
-
-fn chart(title: String, [x_label, y_label]: [&str; 2], is_isotropic: bool, series: Vec<Series>) -> Figure {
-    Figure::Chart(Chart {
-        title,
-        x_label: x_label.to_owned(),
-        y_label: y_label.to_owned(),
-        is_isotropic,
-        x_scale: Scale::Linear,
-        shown: None,
-        series,
-        source: String::new(),
-    })
-}
-
-fn stress(build: &SpaceBuild) -> Figure {
-    let last = build.stress.len() as f64;
-    let limit = |stress: f64| {
-        let ends = vec![Point::new(1.0, stress), Point::new(last, stress)];
-        series(kruskal_word(stress), Mark::Segments, Tone::Faint, ends)
-    };
-    let by_dims: Vec<Point> = (1..).zip(&build.stress).map(|(d, s)| Point::new(f64::from(d), *s)).collect();
-    let chosen = Point::named(
-        build.options.n_dims as f64,
-        build.perceptual.stress,
-        format!("{:.3}", build.perceptual.stress),
-    );
-    // Kruskal's words do not apply to the stress of interval scaling.
-    let limits = match build.options.mds.transform {
-        Transform::PrimaryTies | Transform::SecondaryTies => vec![limit(0.1), limit(0.05)],
-        Transform::Interval => Vec::new(),
-    };
-    chart(
-        "Stress over number of dimensions".to_owned(),
-        ["dimensions", "stress-1"],
-        false,
-        limits
-            .into_iter()
-            .chain([
-                series("stress", Mark::Line, Tone::Main, by_dims),
-                series("chosen", Mark::Dots, Tone::Second, vec![chosen]),
-            ])
-            .collect(),
-    )
-}
-
-fn perceptual(build: &SpaceBuild) -> Figure {
-    let points = &build.perceptual.points;
-    let reach = points.iter().flat_map(|p| [p[0].abs(), p[1].abs()]).fold(0.0, f64::max);
-    let mut all = Vec::new();
-    for (index, adjective) in build.adjectives.iter().enumerate() {
-        let Ok(line) = &adjective.line else { continue };
-        let end = |sign: f64, pole: &str| {
-            // Scaled to the extent of the textures.
-            let length = 0.9 * sign * line.r_squared * reach;
-            Point::named(length * line.direction[0], length * line.direction[1], pole)
-        };
-        let is_axis = build.axes.iter().any(|axis| axis.adjective == index);
-        let tone = if is_axis { Tone::Second } else { Tone::Third };
-        let ends = vec![end(-1.0, &adjective.pair.low), end(1.0, &adjective.pair.high)];
-        all.push(series(&adjective.pair.name(), Mark::Segments, tone, ends));
-    }
-    let dots =
-        build.textures.iter().zip(points).map(|(id, point)| Point::named(point[0], point[1], id)).collect();
-    all.push(series("textures", Mark::Dots, Tone::Main, dots));
-    chart(
-        format!("Perceptual space, stress {:.3}; line length is R²", build.perceptual.stress),
-        ["dimension 1", "dimension 2"],
-        true,
-        all,
-    )
-}
-
-fn correlations(build: &SpaceBuild) -> Figure {
-    let n_dims = build.options.n_dims;
-    let row = |adjective: &Adjective| {
-        let line = adjective.line.as_ref().ok();
-        let icc = adjective.agreement.as_ref().ok().map(|agreement| agreement.average.value);
-        let of_dims = (0..n_dims).map(|d| line.and_then(|line| line.correlations[d]));
-        (adjective.pair.name(), of_dims.chain([line.map(|line| line.r_squared), icc]).collect())
-    };
-    let dims = (1..=n_dims).map(|d| format!("dim. {d}"));
-    Figure::Table(Table {
-        title: "Adjectives and dimensions: correlation, R², rater agreement (ICC)".to_owned(),
-        columns: dims.chain(["R²".to_owned(), "ICC(2,k)".to_owned()]).collect(),
-        rows: build.adjectives.iter().map(row).collect(),
-        decimals: 3,
-        source: String::new(),
-    })
-}
-
-fn adjectives(build: &SpaceBuild) -> Figure {
-    let rated_on_all: Vec<usize> = (0..build.textures.len())
-        .filter(|texture| build.adjectives.iter().all(|a| a.ratings[*texture].mean.is_some()))
-        .collect();
-    let columns: Vec<Vec<f64>> = build
-        .adjectives
-        .iter()
-        .map(|a| rated_on_all.iter().filter_map(|texture| a.ratings[*texture].mean).collect())
-        .collect();
-    let names: Vec<String> = build.adjectives.iter().map(|a| a.pair.name()).collect();
-    Figure::Table(Table {
-        title: "Correlation of mean ratings between adjectives".to_owned(),
-        columns: names.clone(),
-        rows: names.into_iter().zip(correlation_table(&columns, &columns)).collect(),
-        decimals: 2,
-        source: String::new(),
-    })
-}
-
-fn predicted(build: &SpaceBuild, axis: &Axis) -> Figure {
-    let (mut dots, mut seen) = (Vec::new(), Vec::new());
-    let mut title = format!("{}: not predicted, too few textures", axis.pair);
-    if let Some(Prediction { validation: v, predicted, .. }) = &axis.prediction {
-        let named = build.textures.iter().enumerate();
-        dots = named.map(|(i, id)| Point::named(axis.felt[i], v.predicted[i], id)).collect();
-        seen = axis.felt.iter().zip(predicted).map(|(felt, p)| Point::new(*felt, *p)).collect();
-        let chance = v.permutation_p.map_or_else(String::new, |p| format!(", p = {p:.3}"));
-        title = format!(
-            "{}: nested cross-validation r {:.2}{chance}; r {:.2} with features selected on all textures",
-            axis.pair, v.nested_cv_r, v.cv_r
-        );
-    }
-    chart(
-        title,
-        ["perceptual position, 0 to 100", "predicted position, 0 to 100"],
-        false,
-        vec![
-            series("identity", Mark::Line, Tone::Faint, vec![Point::new(0.0, 0.0), Point::new(100.0, 100.0)]),
-            series("training fit", Mark::Dots, Tone::Faint, seen),
-            series("nested cross-validation", Mark::Dots, Tone::Main, dots),
-        ],
-    )
-}
-
-fn authoring(build: &SpaceBuild) -> Figure {
-    let at = |i: usize| {
-        let place = build.positions[i];
-        Point::new(place.rough_smooth, place.hard_soft)
-    };
-    let edges = build.space.triangles().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
-    let mut edges: Vec<[usize; 2]> = edges.map(|[a, b]| [a.min(b), a.max(b)]).collect();
-    edges.sort_unstable();
-    edges.dedup();
-    let dots = build.textures.iter().enumerate().map(|(i, id)| Point::named(at(i).x, at(i).y, id)).collect();
-    let hull: Vec<Point> = build.space.hull().flat_map(|edge| edge.map(at)).collect();
-    let [first, second] = build.axes.each_ref().map(|axis| axis.pair.to_string());
-    chart(
-        "Authoring space".to_owned(),
-        [&format!("{first}, 0 to 100"), &format!("{second}, 0 to 100")],
-        true,
-        vec![
-            series("triangles", Mark::Segments, Tone::Faint, edges.into_iter().flatten().map(at).collect()),
-            series("convex hull", Mark::Segments, Tone::Third, hull),
-            series("textures", Mark::Dots, Tone::Main, dots),
-        ],
-    )
-}
-
-fn shepard(build: &SpaceBuild) -> Figure {
-    let pairs = &build.shepard;
-    let distances = pairs.iter().map(|p| Point::new(p.dissimilarity, p.distance)).collect();
-    let mut disparities: Vec<Point> =
-        pairs.iter().map(|p| Point::new(p.dissimilarity, p.disparity)).collect();
-    disparities.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    chart(
-        "Shepard diagram".to_owned(),
-        ["dissimilarity, 0 to 100", "distance"],
-        false,
-        vec![
-            series("pairs", Mark::Dots, Tone::Faint, distances),
-            series("disparities", Mark::Line, Tone::Main, disparities),
-        ],
     )
 }

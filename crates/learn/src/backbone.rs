@@ -73,7 +73,7 @@ type Numbers = BTreeMap<String, (Vec<usize>, Vec<f32>)>;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum BackboneKind {
-    /// EfficientNet-Lite0, up to its eleventh block.
+    /// EfficientNet-Lite0, up to its last block.
     EfficientnetLite0,
     /// ResNet-50 without its last layer, with the tensor names and pixel normalization of torchvision.
     Resnet50,
@@ -88,13 +88,35 @@ impl BackboneKind {
         }
     }
 
-    /// Returns the number of features per picture.
+    /// Returns the number of early features per picture ([`Backbone::features`]).
     pub fn n_features(self) -> usize {
         match self {
-            Self::EfficientnetLite0 => efficientnet::N_FEATURES,
-            Self::Resnet50 => 2048,
+            Self::EfficientnetLite0 => efficientnet::N_EARLY,
+            Self::Resnet50 => N_OF_RESNET,
         }
     }
+
+    /// Returns the number of late features per picture ([`Backbone::late_features`]).
+    pub fn n_late_features(self) -> usize {
+        match self {
+            Self::EfficientnetLite0 => efficientnet::N_LATE,
+            Self::Resnet50 => N_OF_RESNET,
+        }
+    }
+}
+
+/// Number of features of ResNet-50, which has no separate early features.
+const N_OF_RESNET: usize = 2048;
+
+/// Layers of a network whose features are computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Depth {
+    /// Layers in the middle of the network.
+    Early,
+    /// The last layer before those of the ImageNet classes.
+    Late,
+    /// All of them.
+    Both,
 }
 
 /// A pretrained image network.
@@ -153,13 +175,37 @@ impl Backbone {
         &self.sha256
     }
 
-    /// Returns the features of a picture, [`BackboneKind::n_features`] values.
+    /// Returns the early features of a picture, [`BackboneKind::n_features`] values. They predict the roughness and
+    /// hardness of rendered materials better than late features.
     ///
     /// # Errors
     /// [`BackboneError::Tensor`].
     pub fn features(&self, square: &Square) -> Result<Vec<f32>, BackboneError> {
+        let [early, _] = self.at(square, Depth::Early)?;
+        Ok(early)
+    }
+
+    /// Returns the late features of a picture, [`BackboneKind::n_late_features`] values. They recognize materials in real
+    /// photos better than early features.
+    ///
+    /// # Errors
+    /// [`BackboneError::Tensor`].
+    pub fn late_features(&self, square: &Square) -> Result<Vec<f32>, BackboneError> {
+        let [_, late] = self.at(square, Depth::Late)?;
+        Ok(late)
+    }
+
+    /// Returns the early and the late features of a picture, in the time of the late ones.
+    ///
+    /// # Errors
+    /// [`BackboneError::Tensor`].
+    pub fn early_and_late_features(&self, square: &Square) -> Result<[Vec<f32>; 2], BackboneError> {
+        self.at(square, Depth::Both)
+    }
+
+    fn at(&self, square: &Square, depth: Depth) -> Result<[Vec<f32>; 2], BackboneError> {
         match &self.network {
-            Network::EfficientNet(network) => Ok(network.features(square)),
+            Network::EfficientNet(network) => Ok(network.features(square, depth)),
             Network::ResNet(network, device) => {
                 // Pixel normalization of torchvision.
                 const MEAN: [f32; 3] = [0.485, 0.456, 0.406];
@@ -169,7 +215,8 @@ impl Backbone {
                     .broadcast_sub(&Tensor::new(&MEAN, device)?)?
                     .broadcast_div(&Tensor::new(&DEVIATION, device)?)?;
                 let pixels = pixels.t()?.contiguous()?.reshape((1, 3, SIDE, SIDE))?;
-                Ok(pixels.apply(network)?.flatten_all()?.to_vec1()?)
+                let features: Vec<f32> = pixels.apply(network)?.flatten_all()?.to_vec1()?;
+                Ok([features.clone(), features])
             }
         }
     }

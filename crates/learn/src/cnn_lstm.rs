@@ -3,12 +3,17 @@
 //! After "Predicting Perceptual Haptic Attributes of Textured Surface from Tactile Data Based on Deep CNN-LSTM
 //! Network", VRST 2023, section 4.
 //!
-//! A stroke segment has three channels: acceleration, speed and force. The convolutional stream has six convolutions
-//! and two pooling layers; the recurrent stream has four LSTM layers. Features of both streams are concatenated and
-//! batch-normalized. Two dense layers follow, with one output per attribute.
+//! A stroke segment has the channels acceleration (one combined signal, or three axes), speed and force. The
+//! convolutional stream has six convolutions and two pooling layers; the recurrent stream has four LSTM layers.
+//! Features of both streams are concatenated and batch-normalized. Two dense layers follow, with one output per
+//! attribute.
 //!
 //! The sizes in the paper contradict each other. `paper320` has the 320 features of the text, through pooling by 4 and
 //! 5. `literal` has the pooling of the text without padding, which gives 1408 features.
+//!
+//! The paper compares its network with a 1D-CNN, an LSTM and a serial CNN-LSTM of other authors (Table 3), whose sizes
+//! it does not state. Here they are built of the same layers: one stream alone, or the LSTM layers after the
+//! convolutions.
 
 mod architecture;
 mod normalization;
@@ -59,7 +64,7 @@ impl CnnLstm {
             }
         }
         if a.streams.has_memory() {
-            let mut n_inputs = a.n_channels;
+            let mut n_inputs = a.n_memory_inputs();
             for (index, n_units) in a.units.into_iter().enumerate() {
                 let name = format!("lstm{index}.input");
                 weights(&mut parameters, &name, [n_inputs, 4 * n_units], 1)?;
@@ -123,14 +128,17 @@ impl CnnLstm {
             );
         }
         match a.streams {
-            Streams::Convolutions => self.convolved(segments),
+            Streams::Convolutions => self.convolved(segments)?.flatten_from(1),
             Streams::Memory => self.remembered(segments, exactness),
+            Streams::Series => self.remembered(&self.convolved(segments)?, exactness),
             Streams::Both => {
-                Tensor::cat(&[self.convolved(segments)?, self.remembered(segments, exactness)?], 1)
+                let convolved = self.convolved(segments)?.flatten_from(1)?;
+                Tensor::cat(&[convolved, self.remembered(segments, exactness)?], 1)
             }
         }
     }
 
+    /// Output of the last pooling layer (sequences × samples × filters).
     fn convolved(&self, segments: &Tensor) -> Result<Tensor> {
         let mut x = segments.clone();
         for (index, kernel) in KERNELS.into_iter().enumerate() {
@@ -143,12 +151,12 @@ impl CnnLstm {
                 _ => {}
             }
         }
-        x.flatten_from(1)
+        Ok(x)
     }
 
-    /// States of the last LSTM layer after the last sample.
-    fn remembered(&self, segments: &Tensor, exactness: Exactness) -> Result<Tensor> {
-        let mut x = segments.transpose(0, 1)?.contiguous()?;
+    /// States of the last LSTM layer after the last step of the sequences (sequences × steps × inputs).
+    fn remembered(&self, sequences: &Tensor, exactness: Exactness) -> Result<Tensor> {
+        let mut x = sequences.transpose(0, 1)?.contiguous()?;
         for index in 0..self.architecture.units.len() {
             let gates = self.dense(&x, &format!("lstm{index}.input"))?;
             x = lstm(&gates, self.parameters.get(&format!("lstm{index}.state.weight"))?, exactness)?;

@@ -122,15 +122,15 @@ pub(crate) fn write<T: Serialize>(
     Ok(safetensors::serialize(views, Some(metadata))?)
 }
 
-/// Returns the metadata and tensors of a file of this kind.
+/// Returns the kind of a file.
 ///
 /// # Errors
-/// [`ModelFileError`] if the file is damaged, foreign, newer, of another kind or not finite.
-pub(crate) fn read<T: for<'de> Deserialize<'de>>(
-    kind: &'static str,
-    bytes: &[u8],
-    device: &Device,
-) -> Result<(T, Numbers), ModelFileError> {
+/// [`ModelFileError`] if the file is damaged, foreign or newer.
+pub fn kind_of(bytes: &[u8]) -> Result<String, ModelFileError> {
+    Ok(header_of(bytes)?.kind)
+}
+
+fn header_of(bytes: &[u8]) -> Result<Header, ModelFileError> {
     let (_, metadata) = SafeTensors::read_metadata(bytes)?;
     let header = metadata.metadata().as_ref().and_then(|metadata| metadata.get(KEY));
     let header: Header = serde_json::from_str(header.ok_or(ModelFileError::Foreign)?)?;
@@ -140,6 +140,19 @@ pub(crate) fn read<T: for<'de> Deserialize<'de>>(
     if header.version > VERSION {
         return Err(ModelFileError::Version { version: header.version });
     }
+    Ok(header)
+}
+
+/// Returns the metadata and tensors of a file of this kind.
+///
+/// # Errors
+/// [`ModelFileError`] if the file is damaged, foreign, newer, of another kind or not finite.
+pub(crate) fn read<T: for<'de> Deserialize<'de>>(
+    kind: &'static str,
+    bytes: &[u8],
+    device: &Device,
+) -> Result<(T, Numbers), ModelFileError> {
+    let header = header_of(bytes)?;
     if header.kind != kind {
         return Err(ModelFileError::Kind { found: header.kind, expected: kind });
     }
@@ -250,6 +263,7 @@ mod tests {
         }
         assert!(super::is_model(&bytes) && super::is_model(&changed) && !super::is_model(&bytes[..40]));
         let other = write("other toy", &7, &numbers()).unwrap();
+        assert_eq!(super::kind_of(&other).unwrap(), "other toy");
         assert!(matches!(failure(&other), ModelFileError::Kind { found, .. } if found == "other toy"));
         let text = String::from_utf8_lossy(&bytes).into_owned();
         let later = text.replace(r#"\"version\":1"#, r#"\"version\":2"#);

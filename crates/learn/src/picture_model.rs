@@ -8,6 +8,7 @@
 //! standard deviation combines the validation error and the spread of the heads, and grows for pictures unlike the
 //! training set.
 
+mod error;
 mod learning;
 
 use candle_core::{Device, Tensor};
@@ -19,19 +20,17 @@ use shagreen_core::surfaces::prompt::OPEN;
 
 use self::learning::Learning;
 use crate::backbone::{Backbone, BackboneKind};
-use crate::dense;
-use crate::init::Uniform;
+use crate::dense_stack;
+use crate::feature_scale::{FeatureScale, unlikeness};
 use crate::model_file::{self, ModelFileError, Numbers};
 use crate::parameters::Parameters;
 use crate::picture_set::Seen;
 
-/// Kind of the file.
-const MODEL: &str = "attributes from pictures";
+pub use self::error::PictureModelError;
 
-/// Smallest standard deviation that a feature is divided by; a nearly constant feature is not informative.
-const LEAST_DEVIATION: f32 = 1e-6;
-/// Limit of scaled features, in standard deviations, so that an unusual picture cannot cause an extreme prediction.
-const LARGEST: f32 = 6.0;
+/// Kind of the file.
+pub(crate) const MODEL: &str = "attributes from pictures";
+
 /// Quantile of the training pictures' unlikeness that counts as usual.
 const USUAL_SHARE: f64 = 0.95;
 
@@ -105,46 +104,9 @@ impl PictureConfig {
     }
 }
 
-/// Reasons why a model cannot be trained, read or used.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum PictureModelError {
-    /// There are too few pictures.
-    #[error("training needs at least {least} pictures, got {n}; add more")]
-    TooFew {
-        /// Number of pictures.
-        n: usize,
-        /// Smallest number of pictures.
-        least: usize,
-    },
-    /// Features or labels differ in number between pictures, or a value is not finite.
-    #[error(
-        "picture {index} (from 0) has {n_features} features and {n_labels} labels, needs {expected:?}, all finite; extract its features again"
-    )]
-    Picture {
-        /// Index of the picture.
-        index: usize,
-        /// Number of its features.
-        n_features: usize,
-        /// Number of its labels.
-        n_labels: usize,
-        /// Required numbers of features and labels.
-        expected: [usize; 2],
-    },
-    /// A setting or a size in a file is out of range.
-    #[error("the model's settings are invalid; check layer sizes, heads, batch size and label noise")]
-    Settings,
-    /// A file cannot be read.
-    #[error(transparent)]
-    File(#[from] ModelFileError),
-    /// A tensor operation failed.
-    #[error("the head could not be evaluated: {0}")]
-    Tensor(#[from] candle_core::Error),
-}
-
-/// Metadata of a model file.
+/// Metadata of a model.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-struct About {
+pub(crate) struct About {
     eyes: FeatureExtractor,
     attributes: Vec<String>,
     /// Sizes of all layers, features and outputs included.
@@ -161,8 +123,7 @@ struct About {
 #[derive(Clone, Debug)]
 pub struct PictureModel {
     about: About,
-    /// Mean and standard deviation of each feature.
-    scale: [Vec<f32>; 2],
+    scale: FeatureScale,
     heads: Vec<Parameters>,
     device: Device,
 }
@@ -198,9 +159,9 @@ impl PictureModel {
     ) -> Result<Self, PictureModelError> {
         check(pictures, &lesson, config)?;
         let device = crate::device::best();
-        let scale = scale_of(pictures);
+        let scale = FeatureScale::of(&pictures.iter().map(|seen| &seen.features[..]).collect::<Vec<_>>());
         let n_labels = lesson.attributes.len();
-        let rows: Vec<Vec<f32>> = pictures.iter().map(|seen| scaled(&seen.features, &scale)).collect();
+        let rows: Vec<Vec<f32>> = pictures.iter().map(|seen| scale.apply(&seen.features)).collect();
         let unlikeness: Vec<f64> = rows.iter().map(|row| unlikeness(row)).collect();
         let labels: Vec<Vec<f32>> = pictures
             .iter()
@@ -262,17 +223,14 @@ impl PictureModel {
     /// # Errors
     /// [`PictureModelError::Picture`] for another number of features, or a feature that is not finite.
     pub fn predict(&self, features: &[f32]) -> Result<Vec<Estimate>, PictureModelError> {
-        let expected = [self.scale[0].len(), self.about.attributes.len()];
-        if features.len() != expected[0] || features.iter().any(|x| !x.is_finite()) {
-            let n_features = features.len();
-            return Err(PictureModelError::Picture { index: 0, n_features, n_labels: expected[1], expected });
-        }
-        let row = scaled(features, &self.scale);
+        let row = self.scaled(features)?;
         let unlike = (unlikeness(&row) / self.about.usual_unlikeness).max(1.0);
-        let x = Tensor::from_vec(row, (1, expected[0]), &self.device)?;
+        let n_features = row.len();
+        let x = Tensor::from_vec(row, (1, n_features), &self.device)?;
         let mut by_head = Vec::with_capacity(self.heads.len());
         for head in &self.heads {
-            by_head.push(run(head, &x, self.about.sizes.len() - 1)?.flatten_all()?.to_vec1::<f32>()?);
+            let n_layers = self.about.sizes.len() - 1;
+            by_head.push(dense_stack::run(head, &x, n_layers)?.flatten_all()?.to_vec1::<f32>()?);
         }
         let estimate = |(attribute, rmse): (usize, &f64)| {
             let values: Vec<f64> = by_head.iter().map(|head| 100.0 * f64::from(head[attribute])).collect();
@@ -285,19 +243,30 @@ impl PictureModel {
         Ok(self.about.aside_rmse.iter().enumerate().map(estimate).collect())
     }
 
+    /// Returns how far a picture is from the training pictures; 95 % of these do not exceed 1.
+    ///
+    /// # Errors
+    /// As [`PictureModel::predict`].
+    pub fn unlikeness(&self, features: &[f32]) -> Result<f64, PictureModelError> {
+        Ok(unlikeness(&self.scaled(features)?) / self.about.usual_unlikeness)
+    }
+
+    fn scaled(&self, features: &[f32]) -> Result<Vec<f32>, PictureModelError> {
+        let expected = [self.scale.n_features(), self.about.attributes.len()];
+        if features.len() != expected[0] || features.iter().any(|x| !x.is_finite()) {
+            let n_features = features.len();
+            return Err(PictureModelError::Picture { index: 0, n_features, n_labels: expected[1], expected });
+        }
+        Ok(self.scale.apply(features))
+    }
+
     /// Returns the bytes of the model's file.
     ///
     /// # Errors
     /// [`PictureModelError::File`] if a weight is not finite.
     pub fn to_bytes(&self) -> Result<Vec<u8>, PictureModelError> {
         let mut numbers = Numbers::new();
-        for (index, head) in self.heads.iter().enumerate() {
-            let named = head.snapshot()?;
-            numbers.extend(named.into_iter().map(|(name, tensor)| (format!("head{index}.{name}"), tensor)));
-        }
-        for (name, values) in ["scale.mean", "scale.deviation"].into_iter().zip(&self.scale) {
-            numbers.insert(name.to_owned(), Tensor::from_slice(values, values.len(), &Device::Cpu)?);
-        }
+        self.add_to(&mut numbers, "")?;
         Ok(model_file::write(MODEL, &self.about, &numbers)?)
     }
 
@@ -308,6 +277,32 @@ impl PictureModel {
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, PictureModelError> {
         let device = crate::device::best();
         let (about, numbers) = model_file::read::<About>(MODEL, bytes, &device)?;
+        Self::read(about, &numbers, "", device)
+    }
+
+    /// Returns the metadata of the model.
+    pub(crate) fn about(&self) -> &About {
+        &self.about
+    }
+
+    /// Adds the weights to the tensors of a file, with names that begin with `prefix`.
+    pub(crate) fn add_to(&self, numbers: &mut Numbers, prefix: &str) -> Result<(), candle_core::Error> {
+        for (index, head) in self.heads.iter().enumerate() {
+            dense_stack::add_to(head, numbers, &format!("{prefix}head{index}."))?;
+        }
+        self.scale.add_to(numbers, prefix)
+    }
+
+    /// Reads what [`PictureModel::add_to`] wrote.
+    ///
+    /// # Errors
+    /// As [`PictureModel::from_bytes`].
+    pub(crate) fn read(
+        about: About,
+        numbers: &Numbers,
+        prefix: &str,
+        device: Device,
+    ) -> Result<Self, PictureModelError> {
         let [n_features, .., n_attributes] = about.sizes[..] else { return Err(PictureModelError::Settings) };
         let is_possible = about.sizes.iter().all(|n| (1..=MOST_NUMBERS).contains(n))
             && about.sizes.len() <= MOST_LAYERS
@@ -319,39 +314,13 @@ impl PictureModel {
         if !is_possible {
             return Err(PictureModelError::Settings);
         }
-        let scale_of = |name: &str| match numbers.get(name) {
-            Some(tensor) if tensor.dims() == [n_features] => tensor.to_vec1::<f32>(),
-            _ => candle_core::bail!("tensor \"{name}\" does not have {n_features} values"),
-        };
-        let scale = ["scale.mean", "scale.deviation"].map(scale_of);
-        let [means, deviations] = scale.map(|part| part.map_err(ModelFileError::Shape));
+        let scale = FeatureScale::read(numbers, prefix, n_features).map_err(ModelFileError::Shape)?;
         let mut heads = Vec::with_capacity(about.n_heads);
         for index in 0..about.n_heads {
-            let prefix = format!("head{index}.");
-            let of = |(name, tensor): (&String, &Tensor)| {
-                Some((name.strip_prefix(&prefix)?.to_owned(), tensor.clone()))
-            };
-            let named: Numbers = numbers.iter().filter_map(of).collect();
-            check_shapes(&named, &about.sizes)?;
-            let head = fresh(&about.sizes, 0, &device)?;
-            head.restore(&named).map_err(ModelFileError::Shape)?;
-            heads.push(head);
+            heads.push(dense_stack::read(numbers, &format!("{prefix}head{index}."), &about.sizes, &device)?);
         }
-        Ok(Self { about, scale: [means?, deviations?], heads, device })
+        Ok(Self { about, scale, heads, device })
     }
-}
-
-/// Checks, before any allocation, that a file has the layers its header states.
-fn check_shapes(numbers: &Numbers, sizes: &[usize]) -> Result<(), ModelFileError> {
-    for (index, pair) in sizes.windows(2).enumerate() {
-        let name = format!("dense{index}.weight");
-        let found = numbers.get(&name).map(Tensor::dims);
-        if found != Some(pair) {
-            let what = format!("tensor \"{name}\" has the shape {found:?}, needs {pair:?}");
-            return Err(ModelFileError::Shape(candle_core::Error::Msg(what)));
-        }
-    }
-    Ok(())
 }
 
 /// Limits of layer size, layers and heads; they guard against files that would allocate excessive memory.
@@ -388,49 +357,6 @@ fn check(
         }
         None => Ok(()),
     }
-}
-
-/// Returns mean and standard deviation of each feature.
-fn scale_of(pictures: &[&Seen]) -> [Vec<f32>; 2] {
-    let column = |feature: usize| -> Vec<f64> {
-        pictures.iter().map(|seen| f64::from(seen.features[feature])).collect()
-    };
-    let n_features = pictures[0].features.len();
-    let means = (0..n_features).map(|feature| mean(&column(feature)) as f32).collect();
-    let deviations = (0..n_features).map(|feature| standard_deviation(&column(feature)) as f32).collect();
-    [means, deviations]
-}
-
-fn scaled(features: &[f32], [means, deviations]: &[Vec<f32>; 2]) -> Vec<f32> {
-    let of = |((x, mean), deviation): ((&f32, &f32), &f32)| {
-        ((x - mean) / deviation.max(LEAST_DEVIATION)).clamp(-LARGEST, LARGEST)
-    };
-    features.iter().zip(means).zip(deviations).map(of).collect()
-}
-
-/// Returns the RMS of scaled features (unlikeness): about one for a picture similar to the training set.
-fn unlikeness(row: &[f32]) -> f64 {
-    mean(&row.iter().map(|x| f64::from(*x).powi(2)).collect::<Vec<f64>>()).sqrt()
-}
-
-fn fresh(sizes: &[usize], seed: u64, device: &Device) -> Result<Parameters, candle_core::Error> {
-    let mut parameters = Parameters::default();
-    let mut uniform = Uniform::new(seed);
-    for (index, pair) in sizes.windows(2).enumerate() {
-        dense::add(&mut parameters, &format!("dense{index}"), [pair[0], pair[1]], &mut uniform, device)?;
-    }
-    Ok(parameters)
-}
-
-fn run(parameters: &Parameters, x: &Tensor, n_layers: usize) -> Result<Tensor, candle_core::Error> {
-    let mut x = x.clone();
-    for index in 0..n_layers {
-        x = dense::apply(parameters, &format!("dense{index}"), &x)?;
-        if index + 1 < n_layers {
-            x = x.relu()?;
-        }
-    }
-    Ok(x)
 }
 
 #[cfg(test)]

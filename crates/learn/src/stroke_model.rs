@@ -5,12 +5,13 @@ use serde::{Deserialize, Serialize};
 use shagreen_core::recording::fit::Stroke;
 
 use crate::cnn_lstm::{Architecture, CnnLstm};
+use crate::model_card::ModelCard;
 use crate::model_file::{self, ModelFileError};
 use crate::stroke_set::{Scale, Segments, StrokedTexture};
 use crate::training_error::TrainingError;
 
 /// Kind of the file.
-const MODEL: &str = "attributes from strokes";
+pub const MODEL: &str = "attributes from strokes";
 
 /// Segments per inference batch.
 pub(crate) const N_AT_ONCE: usize = 64;
@@ -21,21 +22,6 @@ pub struct StrokeModel {
     network: CnnLstm,
     scale: Scale,
     device: Device,
-}
-
-/// Model card: what a network predicts, its error, and its training data.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ModelCard {
-    /// Names of the attributes.
-    pub attributes: Vec<String>,
-    /// RMSE of each attribute on textures left out of training, in points of 0 to 100.
-    pub left_out_rmse: Vec<f64>,
-    /// Kind of network.
-    pub network: String,
-    /// Description of the training data.
-    pub learned_from: String,
-    /// Sources of the training labels, as identifiers of library files.
-    pub label_sources: Vec<String>,
 }
 
 /// Metadata of a network file.
@@ -61,12 +47,13 @@ impl StrokeModel {
     /// `None` if no stroke contains a whole segment.
     ///
     /// # Errors
+    /// [`TrainingError::Axes`] if a stroke has another number of axes than [`Architecture::n_axes`],
     /// [`TrainingError::Tensor`] if the network fails.
     pub fn predict(&self, strokes: &[Stroke]) -> Result<Option<Vec<f64>>, TrainingError> {
         let n_outputs = self.architecture().n_outputs;
         let texture =
             StrokedTexture { id: String::new(), strokes: strokes.to_vec(), attributes: vec![0.0; n_outputs] };
-        let segments = Segments::of(&[&texture], self.architecture().n_samples, &self.scale);
+        let segments = Segments::of(&[&texture], self.architecture(), &self.scale)?;
         if segments.len() == 0 {
             return Ok(None);
         }
@@ -120,7 +107,5 @@ impl StrokeModel {
 
 fn check(card: &ModelCard, architecture: &Architecture) -> Result<(), TrainingError> {
     let n_outputs = architecture.n_outputs;
-    let fits = [card.attributes.len(), card.left_out_rmse.len()] == [n_outputs; 2]
-        && card.left_out_rmse.iter().all(|rmse| rmse.is_finite() && *rmse >= 0.0);
-    if fits { Ok(()) } else { Err(TrainingError::Card { n_outputs }) }
+    if card.fits(n_outputs) { Ok(()) } else { Err(TrainingError::Card { n_outputs }) }
 }

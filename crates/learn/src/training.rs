@@ -1,6 +1,6 @@
 //! Training of a stroke network: Adam, RMSE loss and early stopping.
 //!
-//! It can be stopped after any epoch and resumed with an identical result.
+//! It can be stopped before any batch and resumed with an identical result.
 
 use std::ops::Range;
 
@@ -12,7 +12,7 @@ use crate::cnn_lstm::{Architecture, CnnLstm};
 use crate::model_file::{self, Numbers};
 use crate::parameters::{Adam, AdamConfig};
 use crate::stroke_model::{N_AT_ONCE, StrokeModel};
-use crate::stroke_set::{N_CHANNELS, Scale, Segments, StrokedTexture};
+use crate::stroke_set::{Scale, Segments, StrokedTexture};
 
 pub use crate::training_error::TrainingError;
 
@@ -73,6 +73,17 @@ struct State {
     n_adam_steps: usize,
     /// Number of the best epoch.
     best: usize,
+    /// Epoch that was interrupted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    part: Option<PartialEpoch>,
+}
+
+/// Batches of an epoch that was interrupted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct PartialEpoch {
+    n_steps: usize,
+    /// Sum of the mean squared errors of the segments so far, for attributes from 0 to 1.
+    squared_errors: f64,
 }
 
 /// A network in training.
@@ -91,12 +102,11 @@ impl Training {
     /// Starts training of a new network. With patience, a tenth of the textures, at least one, is the validation set.
     ///
     /// # Errors
-    /// [`TrainingError::Sizes`] for invalid settings, [`TrainingError::TooFew`] for too little data.
+    /// [`TrainingError::Sizes`] for invalid settings, [`TrainingError::Axes`] for strokes with another number of axes
+    /// than the network reads, [`TrainingError::TooFew`] for too little data.
     pub fn new(textures: &[&StrokedTexture], config: TrainingConfig) -> Result<Self, TrainingError> {
-        if !config.architecture.is_possible()
-            || config.architecture.n_channels != N_CHANNELS
-            || config.n_batch == 0
-        {
+        let architecture = &config.architecture;
+        if !architecture.is_possible() || ![1, 3].contains(&architecture.n_axes()) || config.n_batch == 0 {
             return Err(TrainingError::Sizes);
         }
         let n_aside = if config.patience.is_some() { textures.len().div_ceil(10) } else { 0 };
@@ -109,20 +119,20 @@ impl Training {
         };
         let (aside, learned) = (of(aside), of(learned));
         let scale = Scale::of(&learned);
-        let n_samples = config.architecture.n_samples;
-        let segments = Segments::of(&learned, n_samples, &scale);
+        let n_samples = architecture.n_samples;
+        let segments = Segments::of(&learned, architecture, &scale)?;
+        let aside_segments = Segments::of(&aside, architecture, &scale)?;
         if segments.len() == 0 || learned.len() < 2 {
             let (n_segments, n_textures) = (segments.len(), learned.len());
             return Err(TrainingError::TooFew { n_segments, n_textures, n_samples });
         }
         let device = crate::device::best();
-        let network =
-            CnnLstm::new(config.architecture.clone(), derive_seed(config.seed, "network"), &device)?;
+        let network = CnnLstm::new(architecture.clone(), derive_seed(config.seed, "network"), &device)?;
         let names =
             |textures: &[&StrokedTexture]| textures.iter().map(|texture| texture.id.clone()).collect();
         Ok(Self {
             adam: Adam::new(AdamConfig::usual(config.learning_rate)),
-            aside: Segments::of(&aside, n_samples, &scale),
+            aside: aside_segments,
             best: network.snapshot()?,
             state: State {
                 way: WAY,
@@ -133,6 +143,7 @@ impl Training {
                 epochs: Vec::new(),
                 n_adam_steps: 0,
                 best: 0,
+                part: None,
             },
             network,
             segments,
@@ -200,6 +211,17 @@ impl Training {
         &self.state.epochs
     }
 
+    /// Returns the number of epochs so far; its fraction is that of an interrupted epoch.
+    pub fn n_epochs(&self) -> f64 {
+        let part = self.state.part.map_or(0.0, |part| part.n_steps as f64 / self.n_steps() as f64);
+        self.state.epochs.len() as f64 + part
+    }
+
+    /// Number of batches of an epoch.
+    fn n_steps(&self) -> usize {
+        self.segments.len().div_ceil(self.state.config.n_batch)
+    }
+
     /// Returns whether training is finished: all epochs are done, or early stopping applies.
     pub fn is_over(&self) -> bool {
         let n = self.state.epochs.len();
@@ -207,10 +229,10 @@ impl Training {
             || self.state.config.patience.is_some_and(|patience| n >= self.state.best + patience && n > 0)
     }
 
-    /// Runs one epoch, and returns its result.
+    /// Runs one epoch, or the rest of an interrupted one, and returns its result.
     ///
-    /// `is_wanted` receives the completed fraction before each batch. If it returns false, the epoch is discarded and
-    /// the result is `None`; resume from the saved state.
+    /// `is_wanted` receives the completed fraction before each batch. If it returns false, the epoch is interrupted:
+    /// what the network learned so far stays, the result is `None`, and the next call continues.
     ///
     /// # Errors
     /// [`TrainingError::Astray`] if the error is not finite, [`TrainingError::Tensor`] if the network fails.
@@ -221,31 +243,36 @@ impl Training {
         let number = self.state.epochs.len() + 1;
         let seed = derive_seed(self.state.config.seed, &format!("epoch {number}"));
         let order = Random::new(seed).shuffled(self.segments.len());
-        let mut sum = 0.0;
-        let n_steps = order.len().div_ceil(self.state.config.n_batch);
-        for step in 0..n_steps {
-            let indices = &order[part(order.len(), n_steps, step)];
-            if !is_wanted(step as f64 / n_steps as f64) {
-                return Ok(None);
+        let n_steps = self.n_steps();
+        let mut done = self.state.part.take().unwrap_or_default();
+        while done.n_steps < n_steps {
+            if !is_wanted(done.n_steps as f64 / n_steps as f64) {
+                self.state.n_adam_steps = self.adam.n_steps;
+                self.state.part = (done.n_steps > 0).then_some(done);
+                return if done.squared_errors.is_finite() {
+                    Ok(None)
+                } else {
+                    Err(TrainingError::Astray { round: number })
+                };
             }
+            let indices = &order[part(order.len(), n_steps, done.n_steps)];
             let (segments, targets) = self.segments.batch(indices, &self.device)?;
             let predicted = self.network.predict_learning(&segments)?;
             let error = (predicted - targets)?.sqr()?.mean_all()?;
-            sum += f64::from(error.to_scalar::<f32>()?) * indices.len() as f64;
+            done.squared_errors += f64::from(error.to_scalar::<f32>()?) * indices.len() as f64;
             // The offset keeps the gradient of the square root finite at zero error.
             let gradients = (error + 1e-12)?.sqrt()?.backward()?;
             self.adam.step(&self.network.parameters, &gradients)?;
+            done.n_steps += 1;
         }
         self.state.n_adam_steps = self.adam.n_steps;
-        let learned_rmse = 100.0 * (sum / order.len() as f64).sqrt();
+        let learned_rmse = 100.0 * (done.squared_errors / order.len() as f64).sqrt();
         if !learned_rmse.is_finite() {
             return Err(TrainingError::Astray { round: number });
         }
         let aside_rmse = if self.aside.len() > 0 { Some(self.aside_rmse()?) } else { None };
         let epoch = Epoch { number, learned_rmse, aside_rmse };
-        let best =
-            self.state.epochs.iter().filter_map(|epoch| epoch.aside_rmse).fold(f64::INFINITY, f64::min);
-        if aside_rmse.is_none_or(|rmse| rmse < best) {
+        if aside_rmse.is_none_or(|rmse| rmse < self.best_aside_rmse()) {
             self.state.best = number;
             self.best = self.network.snapshot()?;
         }
@@ -253,13 +280,28 @@ impl Training {
         Ok(Some(epoch))
     }
 
-    /// Returns the network with the weights of its best epoch.
+    /// Returns the network with the weights of its best epoch. An interrupted epoch counts with its last batch.
     ///
     /// # Errors
-    /// [`TrainingError::Tensor`] if the weights cannot be restored.
+    /// [`TrainingError::Tensor`] if the network fails or the weights cannot be restored.
     pub fn finish(mut self) -> Result<StrokeModel, TrainingError> {
-        self.network.restore(&self.best)?;
+        if !self.is_best_now()? {
+            self.network.restore(&self.best)?;
+        }
         Ok(StrokeModel::new(self.network, self.state.scale, self.device))
+    }
+
+    /// Returns whether the weights of an interrupted epoch are better than those of every complete one.
+    fn is_best_now(&self) -> Result<bool, TrainingError> {
+        if self.state.part.is_none() {
+            return Ok(false);
+        }
+        Ok(self.aside.len() == 0 || self.aside_rmse()? < self.best_aside_rmse())
+    }
+
+    /// Lowest validation RMSE of the complete epochs; infinite without one.
+    fn best_aside_rmse(&self) -> f64 {
+        self.state.epochs.iter().filter_map(|epoch| epoch.aside_rmse).fold(f64::INFINITY, f64::min)
     }
 
     fn aside_rmse(&self) -> Result<f64, TrainingError> {

@@ -21,6 +21,16 @@ pub enum TrainingError {
     /// A size is zero or too large.
     #[error("invalid network or batch size; sizes must be above zero and within limits")]
     Sizes,
+    /// A stroke has another number of acceleration axes than the network reads.
+    #[error(
+        "a stroke has {n_found} acceleration signals, the network reads {n_needed}; for 3, give recordings with three axes, for 1, the combined signal"
+    )]
+    Axes {
+        /// Number of axes of the stroke.
+        n_found: usize,
+        /// Number of axes that the network reads.
+        n_needed: usize,
+    },
     /// The loss is not finite.
     #[error("training diverged in epoch {round}; start again with another seed, in another folder")]
     Astray {

@@ -4,6 +4,8 @@
 //! inputs for each reader.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test may panic, and reports what it did")]
 
+#[path = "fuzz_models/made_up_photos.rs"]
+mod made_up_photos;
 #[path = "../../formats/tests/fuzz_readers/memory.rs"]
 mod memory;
 #[path = "../../formats/tests/fuzz_readers/mutate.rs"]
@@ -14,14 +16,18 @@ use std::time::{Duration, Instant};
 
 use shagreen_core::maths::rng::{Random, derive_seed, lcg_noise};
 use shagreen_core::recording::fit::Stroke;
+use shagreen_learn::attribute_model::AttributeModel;
 use shagreen_learn::backbone::Backbone;
 use shagreen_learn::cnn_lstm::{Architecture, Padding, Streams};
+use shagreen_learn::model_card::{GaussianProcessComparison, ModelCard};
+use shagreen_learn::photo_set::PhotoSet;
 use shagreen_learn::picture_model::PictureModel;
 use shagreen_learn::picture_set::{PictureSet, Seen};
-use shagreen_learn::stroke_model::{ModelCard, StrokeModel};
+use shagreen_learn::stroke_model::StrokeModel;
 use shagreen_learn::stroke_set::StrokedTexture;
 use shagreen_learn::training::{Training, TrainingConfig};
 
+use crate::made_up_photos::{photo_model, photo_set};
 use crate::memory::peak_of;
 use crate::mutate::mutate;
 
@@ -48,7 +54,7 @@ fn stroke_model() -> Vec<u8> {
     let texture = |seed: u64| StrokedTexture {
         id: seed.to_string(),
         strokes: vec![Stroke {
-            accel_mps2: lcg_noise(200, seed),
+            axes_mps2: vec![lcg_noise(200, seed)],
             speed_mps: vec![0.1; 200],
             force_n: vec![0.3; 200],
         }],
@@ -64,6 +70,8 @@ fn stroke_model() -> Vec<u8> {
         network: "tiny".to_owned(),
         learned_from: "noise".to_owned(),
         label_sources: vec!["simulated".to_owned()],
+        gaussian_process: Some(GaussianProcessComparison::new(vec![9.0], vec![4.0])),
+        extent: None,
     };
     training.finish().unwrap().to_bytes(&card).unwrap()
 }
@@ -125,6 +133,8 @@ fn every_reader_of_models_takes_whatever_comes() {
     fuzz("stroke model", &stroke_model(), &|bytes| StrokeModel::from_bytes(bytes).is_ok());
     fuzz("picture set", &picture_set(), &|bytes| PictureSet::from_bytes(bytes).is_ok());
     fuzz("picture model", &picture_model(), &|bytes| PictureModel::from_bytes(bytes).is_ok());
+    fuzz("photo set", &photo_set().to_bytes().unwrap(), &|bytes| PhotoSet::from_bytes(bytes).is_ok());
+    fuzz("photo model", &photo_model(), &|bytes| AttributeModel::from_bytes(bytes).is_ok());
     // Networks of others have no header of ours: this one is refused as unknown, whatever its header says.
     fuzz("backbone", &picture_set(), &|bytes| {
         assert!(Backbone::from_bytes(bytes).is_err());

@@ -18,7 +18,7 @@ macro_rules! page {
 }
 
 /// All pages, the table of contents first.
-pub static PAGES: [GuidePage; 41] = [
+pub static PAGES: [GuidePage; 44] = [
     page!("index"),
     page!("first-steps"),
     page!("terms"),
@@ -40,11 +40,14 @@ pub static PAGES: [GuidePage; 41] = [
     page!("make-materials"),
     page!("hatt-models"),
     page!("build-a-space"),
+    page!("ratings-alone"),
     page!("validate-a-space"),
     page!("judgment-tables"),
+    page!("questionnaires"),
     page!("prompts-and-photos"),
     page!("predict-attributes"),
     page!("train"),
+    page!("train-networks"),
     page!("diffusion-models"),
     page!("outputs-and-actuators"),
     page!("calibrate"),

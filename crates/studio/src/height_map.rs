@@ -38,7 +38,8 @@ const ABOUT: &str = "Relief from a picture: ";
 pub struct ReliefSize {
     /// Side of the surface in the central square of the picture, in mm, in [`SIDES_MM`].
     pub side_mm: f64,
-    /// Height of white above black, in µm, in [`HEIGHTS_UM`].
+    /// Height of white above black, in µm, in [`HEIGHTS_UM`]. If the picture
+    /// [is stretched](PictureTile::is_stretched), that of its highest pixel above its lowest one.
     pub height_um: f64,
 }
 
@@ -142,7 +143,7 @@ pub fn relief(
     };
     let picture = tile.picture(scale.side_m)?;
     let PictureTile { is_seamless, is_colored, .. } = *tile;
-    let assumption = assumption(is_seamless, is_colored, height_um);
+    let assumption = assumption(tile, height_um);
     let warning = impossible(&map);
     Ok(PictureRelief { map, picture, is_seamless, is_colored, assumption, warning })
 }
@@ -203,18 +204,21 @@ fn too_steep(size: ReliefSize, mps2: f64) -> ReliefSizeError {
     ReliefSizeError::Steep { height_um, side_mm, most_um, least_mm }
 }
 
-fn assumption(is_seamless: bool, is_colored: bool, height_um: f64) -> String {
-    let source = if is_colored {
+fn assumption(tile: &PictureTile, height_um: f64) -> String {
+    let source = if tile.is_colored {
         "the heights are assumed, not measured: the brightness of the photo"
+    } else if tile.is_stretched {
+        "the number in each pixel of the picture"
     } else {
         "the gray value of the picture"
     };
-    let edges = if is_seamless {
+    let [low, high] = if tile.is_stretched { ["lowest", "highest"] } else { ["black", "white"] };
+    let edges = if tile.is_seamless {
         "its edges fit together"
     } else {
         "its edges do not fit together, so its slope was removed and its borders were faded into each other"
     };
-    format!("{source} is the height, from 0 µm (black) to {height_um} µm (white); {edges}")
+    format!("{source} is the height, from 0 µm ({low}) to {height_um} µm ({high}); {edges}")
 }
 
 /// A description with the sentence about a relief, in place of an earlier one. A long description is shortened before it.

@@ -183,7 +183,8 @@ mod tests {
             let packed = texture.picture.as_ref().unwrap();
             let seen = looker.look(&decode(packed).unwrap().into_surface(packed.millimeters)).unwrap();
             let at = texture.at().unwrap();
-            for (off, (seen, at)) in off.iter_mut().zip(seen.iter().zip([at.rough_smooth, at.hard_soft])) {
+            let pairs = seen.attributes.iter().zip([at.rough_smooth, at.hard_soft]);
+            for (off, (seen, at)) in off.iter_mut().zip(pairs) {
                 *off += (seen.mean - at).abs() / library.textures.len() as f64;
             }
         }

@@ -21,7 +21,8 @@ use crate::permitted_libraries::{OutsideLibrary, Permitted, without_dots};
 const HEAD_BYTES: u64 = 256;
 /// Endings of the names of files that the window takes although they are neither projects nor libraries: recordings,
 /// models, strokes and photos.
-pub const OTHER_ENDINGS: [&str; 9] = ["wav", "csv", "tsv", "txt", "xml", "svc", "jpg", "jpeg", "png"];
+pub const OTHER_ENDINGS: [&str; 13] =
+    ["wav", "csv", "tsv", "txt", "xml", "svc", "jpg", "jpeg", "png", "webp", "bmp", "tif", "tiff"];
 
 /// Returns whether a file is of such a kind: its name has one of [`OTHER_ENDINGS`], and it does not begin like a project
 /// or a library, which may have any name.
@@ -177,10 +178,11 @@ fn outside_warning(library: &Path) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{LibraryOrigin, Opened, open, open_on};
+    use super::{LibraryOrigin, OTHER_ENDINGS, Opened, open, open_on};
     use crate::permitted_libraries::{OutsideLibrary, Permitted};
     use crate::project::new_project;
     use shagreen_formats::built_in::BuiltIn;
+    use shagreen_formats::picture::PHOTO_ENDINGS;
     use shagreen_formats::project::{ProjectLibrary, write_project};
     use shagreen_formats::starter::starter_bytes;
 
@@ -206,6 +208,11 @@ mod tests {
         }
         assert!(error_of(folder.path()).contains("not a file"));
         assert!(error_of(&folder.path().join("none")).contains("cannot be read"));
+    }
+
+    #[test]
+    fn photos_of_all_formats_are_taken() {
+        assert!(PHOTO_ENDINGS.iter().all(|ending| OTHER_ENDINGS.contains(ending)));
     }
 
     #[test]

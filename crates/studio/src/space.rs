@@ -1,4 +1,4 @@
-//! Building an authoring space from judgments: the space with its figures and its summary.
+//! Building an authoring space from judgments, with or without sorts: the space with its figures and its summary.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub struct BuiltSpace {
     /// Positions and attributes for textures.
     pub placed: Arc<PlacedSpace>,
     /// Figures, each under a short name that serves for files.
-    pub figures: Vec<(&'static str, Arc<Figure>)>,
+    pub figures: Vec<(String, Arc<Figure>)>,
     /// Summary of the validation, in sentences.
     pub validation: Vec<String>,
 }

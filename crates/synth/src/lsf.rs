@@ -46,14 +46,13 @@ pub fn ar_from_lsf(lsf: &[f32], ar: &mut [f32]) {
     let mut half = [[0.0_f64; 2]; MAX_FACTORS + 1];
     half[0] = [1.0, 1.0];
     for (k, c) in factor[..p_factors].iter().enumerate() {
-        multiply(&mut half, k, *c);
+        multiply::<2>(&mut half, k, *c);
     }
-    let p_half = half;
     if q_factors > p_factors {
-        multiply(&mut half, p_factors, factor[p_factors]);
+        multiply::<1>(&mut half, p_factors, factor[p_factors]);
     }
     let q_at = |i: usize| if i <= q_factors { half[i][0] } else { half[2 * q_factors - i][0] };
-    let p_at = |i: usize| if i <= p_factors { p_half[i][1] } else { p_half[2 * p_factors - i][1] };
+    let p_at = |i: usize| if i <= p_factors { half[i][1] } else { half[2 * p_factors - i][1] };
     if order.is_multiple_of(2) {
         // Q also has the root z = -1, and P the root z = 1.
         let (mut q_last, mut p_last) = (1.0, 1.0);
@@ -72,10 +71,10 @@ pub fn ar_from_lsf(lsf: &[f32], ar: &mut [f32]) {
     }
 }
 
-/// Multiplies two palindromes of degree `2 k` by `1 + c z + z²` each. Only their first halves are stored.
+/// Multiplies the first `N` of two palindromes of degree `2 k` by `1 + c z + z²` each. Only their first halves are stored.
 #[inline]
-fn multiply(half: &mut [[f64; 2]; MAX_FACTORS + 1], k: usize, c: [f64; 2]) {
-    for lane in 0..2 {
+fn multiply<const N: usize>(half: &mut [[f64; 2]; MAX_FACTORS + 1], k: usize, c: [f64; 2]) {
+    for lane in 0..N {
         // The coefficient after the middle equals the coefficient before it.
         let before = if k >= 1 { half[k - 1][lane] } else { 0.0 };
         half[k + 1][lane] = 2.0 * before + c[lane] * half[k][lane];
@@ -85,11 +84,11 @@ fn multiply(half: &mut [[f64; 2]; MAX_FACTORS + 1], k: usize, c: [f64; 2]) {
         return;
     }
     for i in (2..=k).rev() {
-        for lane in 0..2 {
+        for lane in 0..N {
             half[i][lane] += c[lane] * half[i - 1][lane] + half[i - 2][lane];
         }
     }
-    for lane in 0..2 {
+    for lane in 0..N {
         half[1][lane] += c[lane] * half[0][lane];
     }
 }

@@ -177,8 +177,9 @@ impl StickSlip {
 
     /// Puts the tip to rest.
     pub fn reset(&mut self) {
-        self.tip = None;
-        self.high_pass.start_at(0.0);
+        if self.tip.take().is_some() {
+            self.high_pass.start_at(0.0);
+        }
     }
 
     /// Adds a tick of acceleration in m/s² to `out` (at most [`MAX_TICK`] samples), with the contacts at its start and end,

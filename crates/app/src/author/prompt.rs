@@ -12,18 +12,20 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use egui::Context;
+use shagreen_core::surfaces::prompt::interpret;
+use shagreen_formats::lexicon_toml::built_in_lexicon;
 use shagreen_formats::library::TextureEntry;
+use shagreen_formats::photo_networks::PhotoNetworks;
 use shagreen_formats::picture::Picture;
 use shagreen_formats::project::AuthoredTexture;
 use shagreen_formats::settings::KeptPrompt;
 
-pub use self::position_estimate::{Origin, PositionEstimate};
+pub use self::position_estimate::{MaterialEstimate, Origin, PositionEstimate};
 
 use self::job::{Job, Maker, Wanted};
 pub(crate) use self::simulation::Simulated;
 use self::simulation::Simulation;
 use crate::command::prompt::PromptCommand;
-use crate::state::source::Source;
 use crate::strings::prompt as words;
 use shagreen_studio::models::{AddedDiffusion, ModelFolder};
 
@@ -35,10 +37,14 @@ pub struct Prompts {
     pub(crate) by_diffusion: bool,
     added: Option<AddedDiffusion>,
     models: Option<ModelFolder>,
+    /// Networks that predict attributes from pictures, if the user has chosen any.
+    networks: Option<PhotoNetworks>,
     job: Option<Job>,
     /// Photos that wait for the running job.
-    waiting: VecDeque<Source>,
-    guess: Option<PositionEstimate>,
+    waiting: VecDeque<Wanted>,
+    /// Estimates of the last result: first the one that was made, then those with a material that the user has taken. Each
+    /// has a picture in memory of its own, so that undo decides which of them is shown.
+    guesses: Vec<PositionEstimate>,
     /// Simulation of the texture of the last result.
     simulation: Option<Simulation>,
     /// Texture that was simulated last, and the key of its authored texture.
@@ -67,27 +73,56 @@ impl Prompts {
             by_diffusion: false,
             added,
             models,
+            networks: None,
             job: None,
             waiting: VecDeque::new(),
-            guess: None,
+            guesses: Vec::new(),
             simulation: None,
             simulated: None,
             step: None,
         }
     }
 
+    /// Predicts attributes from pictures with these networks, from the next job on; `None` selects the usual ones.
+    pub(crate) fn use_networks(&mut self, networks: Option<PhotoNetworks>) {
+        self.networks = networks;
+    }
+
     /// Estimate made for an authored texture, if the texture still has the picture made with it. Its key is not enough:
     /// keys recur after undo, and in other projects.
     pub fn guess_of(&self, texture: &AuthoredTexture) -> Option<&PositionEstimate> {
-        self.guess
-            .as_ref()
-            .filter(|guess| guess.key.is_some_and(|key| has_still(texture, key, &guess.picture)))
+        let is_of =
+            |guess: &&PositionEstimate| guess.key.is_some_and(|key| has_still(texture, key, &guess.picture));
+        self.guesses.iter().find(is_of)
+    }
+
+    /// Estimate of an authored texture with the lexicon entry of this material, or again the one from the picture. `None` if
+    /// the texture has no estimate, or the lexicon no entry.
+    pub(crate) fn take_material(
+        &mut self,
+        texture: &AuthoredTexture,
+        material: Option<&str>,
+    ) -> Option<PositionEstimate> {
+        let present = self.guess_of(texture)?;
+        if let Some(before) = self.guesses.iter().find(|guess| guess.taken.as_deref() == material) {
+            return Some(before.clone());
+        }
+        let taken = present.with_material(material?)?;
+        self.guesses.push(taken.clone());
+        Some(taken)
+    }
+
+    /// Words in the prompt box, if they are about touch.
+    pub(crate) fn described(&self) -> Option<String> {
+        let lexicon = built_in_lexicon().ok()?; // A prompt reports a damaged lexicon.
+        let text = self.text.trim();
+        interpret(text, lexicon).is_about_touch().then(|| text.to_owned())
     }
 
     /// Discards the jobs and the result, which belong to a project that is no longer open.
     pub(crate) fn forget(&mut self) {
-        (self.job, self.guess, self.simulation, self.simulated) = (None, None, None, None);
-        self.step = None;
+        (self.job, self.simulation, self.simulated, self.step) = (None, None, None, None);
+        self.guesses.clear();
         self.waiting.clear();
     }
 
@@ -116,26 +151,35 @@ impl Prompts {
         self.added().filter(|_| self.by_diffusion)
     }
 
-    /// Executes a prompt command. Words replace the running job; photos wait for it to finish. `poles` are the labels
-    /// at both ends of each axis. Returns the prompt to be remembered.
+    /// Executes a prompt command, except the one that takes a material: that is an edit. Words replace the running job;
+    /// photos wait for it to finish. `texture` is the selected one, `poles` are the labels at both ends of each axis.
+    /// Returns the prompt to be remembered.
     pub(crate) fn carry_out(
         &mut self,
         command: PromptCommand,
+        texture: &AuthoredTexture,
         poles: &[[String; 2]; 2],
         ctx: &Context,
     ) -> Option<KeptPrompt> {
         let (prompt, seed, replaces) = match command {
             PromptCommand::Make { prompt, seed } => (prompt, seed, None),
             PromptCommand::Another => {
-                let guess = self.guess.as_ref()?;
+                let guess = self.guess_of(texture)?;
                 let Origin::Words { prompt, seed } = &guess.origin else { return None };
                 (prompt.clone(), seed.wrapping_add(1), guess.replaced())
             }
             PromptCommand::Look(sources) => {
-                self.waiting.extend(sources);
+                let photos = sources.into_iter().map(|source| Wanted::Photo { source, prompt: None });
+                self.waiting.extend(photos);
                 self.look_at_next(poles, ctx);
                 return None;
             }
+            PromptCommand::LookWith { photo, prompt } => {
+                self.waiting.push_back(Wanted::Photo { source: photo, prompt: Some(prompt) });
+                self.look_at_next(poles, ctx);
+                return None;
+            }
+            PromptCommand::TakeMaterial(_) => return None,
             PromptCommand::Stop => {
                 self.job = None;
                 self.waiting.clear();
@@ -146,7 +190,7 @@ impl Prompts {
                 return None;
             }
             PromptCommand::Dismiss => {
-                self.guess = None;
+                self.guesses.clear();
                 return None;
             }
         };
@@ -165,7 +209,7 @@ impl Prompts {
         if self.job.is_none()
             && let Some(photo) = self.waiting.pop_front()
         {
-            self.begin(Wanted::Photo(photo), None, poles, ctx);
+            self.begin(photo, None, poles, ctx);
         }
     }
 
@@ -176,7 +220,11 @@ impl Prompts {
         poles: &[[String; 2]; 2],
         ctx: &Context,
     ) {
-        let maker = Maker { models: self.models.clone(), diffusion: self.chosen_diffusion().cloned() };
+        let maker = Maker {
+            models: self.models.clone(),
+            networks: self.networks.clone(),
+            diffusion: self.chosen_diffusion().cloned(),
+        };
         self.job = Some(Job::begin(wanted, replaces, maker, axis_names(poles), ctx));
     }
 
@@ -193,7 +241,7 @@ impl Prompts {
         if let Some(surface) = guess.surface.clone() {
             self.simulation = Some(Simulation::begin(surface, key, Arc::clone(&guess.picture), ctx));
         }
-        self.guess = Some(PositionEstimate { key: Some(key), ..guess });
+        self.guesses = vec![PositionEstimate { key: Some(key), ..guess }];
     }
 
     /// Notes the revision of the project after the result was added.
@@ -231,7 +279,7 @@ impl Prompts {
     /// Keeps the texture that was simulated for the authored texture with this key, and notes it in the estimate.
     pub(crate) fn note_simulated(&mut self, key: u32, entry: Arc<TextureEntry>) {
         self.simulated = Some((key, entry));
-        if let Some(guess) = self.guess.as_mut().filter(|guess| guess.key == Some(key)) {
+        for guess in self.guesses.iter_mut().filter(|guess| guess.key == Some(key)) {
             guess.said.push(words::SIMULATED.to_owned());
         }
     }

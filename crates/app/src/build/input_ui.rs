@@ -3,18 +3,25 @@
 use std::collections::BTreeSet;
 
 use egui::{Align, Button, DragValue, Key, Label, Layout, RichText, TextEdit, TextStyle, Ui};
+use shagreen_formats::questionnaire::questionnaires;
 
 use crate::browse::{Asked as Dialog, Browse};
 use crate::build::judgments::{Judgments, Slot};
-use crate::look::icons::close_button;
+use crate::command::Command;
+use crate::look::icons::{ICON_ASSIGNMENT, close_button};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::session::Session;
+use crate::state::blank_file::BlankFile;
 use crate::state::source::paths_in;
 use crate::strings::build as strings;
 use shagreen_studio::judgments::JudgmentKind;
+use shagreen_studio::questionnaire::ExperimentFile;
 
 /// Height of the window from which rows are kept for what is not read yet, in points.
 const ROOMY_HEIGHT: f32 = 720.0;
+
+/// Size of an icon beside a button, in points: not higher than the text of the button.
+const ICON_SIZE: f32 = 14.0;
 
 /// One field for the path of a table.
 #[derive(Default)]
@@ -41,6 +48,14 @@ struct Said {
     unknown: Option<String>,
 }
 
+/// Requested actions on the inputs.
+#[derive(Default)]
+pub(super) struct InputsAsked {
+    /// A simulated panel is to sort and rate.
+    pub(super) simulate: bool,
+    pub(super) command: Option<Command>,
+}
+
 /// Requested actions on one table.
 #[derive(Default)]
 struct Asked {
@@ -48,14 +63,14 @@ struct Asked {
     clear: bool,
 }
 
-/// Draws the tables and the `scale` of the ratings, its low end first; returns whether a simulated panel is requested.
+/// Draws the tables and the `scale` of the ratings, its low end first; returns the requested actions.
 pub(super) fn inputs_ui(
     ui: &mut Ui,
     judgments: &mut Judgments,
     paths: &mut Paths,
     scale: &mut [f64; 2],
     session: &Session,
-) -> bool {
+) -> InputsAsked {
     let t = tokens(ui.ctx());
     ui.horizontal(|ui| {
         ui.heading(strings::MADE_OF);
@@ -92,8 +107,43 @@ pub(super) fn inputs_ui(
         ui.add(Label::new(RichText::new(strings::READING).small().color(t.text_weak)).selectable(false));
     }
     ui.add_space(GROUP_GAP);
-    let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
-    ui.add_sized(size, Button::new(strings::SIMULATE)).on_hover_text(strings::SIMULATE_HELP).clicked()
+    let mut asked = InputsAsked::default();
+    ui.horizontal(|ui| {
+        asked.command = questionnaires_ui(ui, session);
+        let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
+        let simulate = ui.add_sized(size, Button::new(strings::SIMULATE));
+        asked.simulate = simulate.on_hover_text(strings::SIMULATE_HELP).clicked();
+    });
+    asked
+}
+
+/// Draws the menu of questionnaires, which saves blank tables and instructions; returns the requested command.
+fn questionnaires_ui(ui: &mut Ui, session: &Session) -> Option<Command> {
+    let mut asked = None;
+    let menu = ui.menu_button(ICON_ASSIGNMENT.rich_text().size(ICON_SIZE), |ui| {
+        let all = match questionnaires() {
+            Ok(all) => all,
+            Err(error) => {
+                ui.label(error.to_string());
+                return;
+            }
+        };
+        for questionnaire in all {
+            let name = Label::new(RichText::new(&questionnaire.name).strong()).selectable(false);
+            ui.add(name).on_hover_text(format!("{}. {}", questionnaire.source, questionnaire.note));
+            for file in ExperimentFile::ALL {
+                let entry = ui.button(strings::blank_file(file));
+                let entry = entry.accessible_name(strings::blank_file_of(file, &questionnaire.name));
+                if entry.clicked() {
+                    asked = Some(Command::SaveBlank(BlankFile::new(file, questionnaire, session.textures())));
+                    ui.close();
+                }
+            }
+        }
+    });
+    let help = strings::questionnaires_help();
+    menu.response.accessible_name(strings::QUESTIONNAIRES).on_hover_text(help);
+    asked
 }
 
 fn table_ui(
@@ -106,7 +156,7 @@ fn table_ui(
     let t = tokens(ui.ctx());
     let mut asked = Asked::default();
     let (title, help, nothing) = match kind {
-        JudgmentKind::Sorting => (strings::SORTING, strings::SORTING_HELP, strings::NOTHING_YET),
+        JudgmentKind::Sorting => (strings::SORTING, strings::SORTING_HELP, strings::OPTIONAL),
         JudgmentKind::Ratings => (strings::RATINGS, strings::RATINGS_HELP, strings::NOTHING_YET),
         JudgmentKind::Votes => (strings::VOTES, strings::VOTES_HELP, strings::OPTIONAL),
     };

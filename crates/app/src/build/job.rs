@@ -55,6 +55,7 @@ impl Job {
         let (sender, messages) = channel();
         let is_cancelled = Arc::new(AtomicBool::new(false));
         let (is_stopped, ctx) = (Arc::clone(&is_cancelled), ctx.clone());
+        let step = if order.sorts.is_empty() { Step::Adjectives } else { Step::Sorting };
         std::thread::spawn(move || {
             let progress = Progress { sender, is_cancelled: is_stopped, told: Mutex::default(), ctx };
             let outcome = carry_out(&order, &progress);
@@ -63,7 +64,7 @@ impl Job {
             let _ = sender.send(Message::Done(outcome.map(Box::new)));
             ctx.request_repaint();
         });
-        Self { messages, is_cancelled, step: Step::Sorting, started: Instant::now() }
+        Self { messages, is_cancelled, step, started: Instant::now() }
     }
 
     /// Asks the worker to stop. It uses the processor until [`Job::collect`] returns an outcome.

@@ -1,6 +1,6 @@
 //! Options for building a space.
 
-use egui::{ComboBox, DragValue, Grid, Label, Response, RichText, Ui};
+use egui::{Checkbox, ComboBox, DragValue, Grid, Label, Response, RichText, Ui};
 use shagreen_core::people::mds::{MAX_DIMS, Transform};
 use shagreen_core::people::ratings::{AdjectivePair, Rating};
 use shagreen_core::space::selection::Method;
@@ -22,19 +22,26 @@ const MAX_PERMUTATIONS: usize = 10_000;
 const TIES: [Option<Transform>; 4] =
     [None, Some(Transform::PrimaryTies), Some(Transform::SecondaryTies), Some(Transform::Interval)];
 
-/// Draws the options; the adjective pairs in `ratings` can be chosen as axes.
-pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rating]) {
+/// Draws the options; the adjective pairs in `ratings` can be chosen as axes. If there are ratings without sorts, options of
+/// the perceptual space are disabled.
+pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rating], is_rated_alone: bool) {
     ui.heading(strings::OPTIONS);
     Grid::new("build options").num_columns(2).spacing([2.0 * GAP, ROW_GAP]).show(ui, |ui| {
         row(ui, strings::DIMENSIONS, strings::DIMENSIONS_HELP, |ui| {
-            let response = ui.add(DragValue::new(&mut options.n_dims).range(2..=MAX_DIMS).speed(0.05));
+            let dimensions = DragValue::new(&mut options.n_dims).range(2..=MAX_DIMS).speed(0.05);
+            let response = ui.add_enabled(!is_rated_alone, dimensions);
+            let response = response.on_disabled_hover_text(strings::NEEDS_SORTS);
             beside(ui, strings::TIES, strings::TIES_HELP);
             let width = ui.max_rect().left() + CONTROL_WIDTH - ui.cursor().left();
-            combo(ui, strings::TIES, width, &mut options.transform, &TIES, |ties| {
-                strings::ties(*ties).to_owned()
-            })
-            .accessible_name(strings::TIES)
-            .on_hover_text(strings::TIES_HELP);
+            let ties = ui.add_enabled_ui(!is_rated_alone, |ui| {
+                combo(ui, strings::TIES, width, &mut options.transform, &TIES, |ties| {
+                    strings::ties(*ties).to_owned()
+                })
+            });
+            ties.inner
+                .accessible_name(strings::TIES)
+                .on_hover_text(strings::TIES_HELP)
+                .on_disabled_hover_text(strings::NEEDS_SORTS);
             response
         });
         axes_ui(ui, &mut options.axes, &pairs_of(ratings));
@@ -73,7 +80,10 @@ pub(super) fn options_ui(ui: &mut Ui, options: &mut SpaceOptions, ratings: &[Rat
             response
         });
     });
-    ui.checkbox(&mut options.is_orthogonal, strings::ORTHOGONAL).on_hover_text(strings::ORTHOGONAL_HELP);
+    let orthogonal = Checkbox::new(&mut options.is_orthogonal, strings::ORTHOGONAL);
+    ui.add_enabled(!is_rated_alone, orthogonal)
+        .on_hover_text(strings::ORTHOGONAL_HELP)
+        .on_disabled_hover_text(strings::NEEDS_SORTS);
 }
 
 /// Draws a row with the label of its first control; other controls may follow in it.

@@ -6,7 +6,9 @@ use egui::{
 };
 use shagreen_core::people::mds::MdsOptions;
 use shagreen_core::space::space_build::{SpaceOptions, Step};
+use shagreen_formats::figure::Figure;
 use shagreen_formats::project::ProjectLibrary;
+use shagreen_formats::space_report::RATING_FIGURE;
 
 use crate::build::figures_ui::figures_ui;
 use crate::build::input_ui::{Paths, inputs_ui};
@@ -101,7 +103,10 @@ impl BuildPage {
         let Some(outcome) = self.job.as_mut().and_then(|(job, _)| job.collect()) else { return };
         let Some((_, recipe)) = self.job.take() else { return };
         match outcome {
-            Outcome::Built(built) => (self.built, self.failure) = (Some((*built, recipe)), None),
+            Outcome::Built(built) => {
+                self.shown = with_data(&built, self.shown);
+                (self.built, self.failure) = (Some((*built, recipe)), None);
+            }
             Outcome::Failed(reason) => self.failure = Some((reason, recipe)),
             Outcome::Cancelled => {}
         }
@@ -113,7 +118,7 @@ impl BuildPage {
         let t = tokens(ui.ctx());
         self.library = Some(panel.project.library.clone());
         Side::left("build inputs").exact_size(BUILD_INPUTS_WIDTH).resizable(false).show(ui, |ui| {
-            self.left_ui(ui, panel.session);
+            commands.extend(self.left_ui(ui, panel.session));
         });
         Side::right("verdict").exact_size(VERDICT_WIDTH).resizable(false).show(ui, |ui| {
             commands.extend(validation_ui(ui, panel, self.built(), self.has_changed()));
@@ -140,7 +145,8 @@ impl BuildPage {
         self.built.as_ref().is_some_and(|(_, recipe)| *recipe != self.recipe())
     }
 
-    fn left_ui(&mut self, ui: &mut Ui, session: &Session) {
+    fn left_ui(&mut self, ui: &mut Ui, session: &Session) -> Option<Command> {
+        let mut asked = None;
         // The scroll bar is drawn over the content at its side.
         let beside_bar = Frame::new().inner_margin(Margin { right: SCROLL_BAR, ..Margin::ZERO });
         let frame = Frame::new().inner_margin(Margin::symmetric(0, 8));
@@ -150,13 +156,18 @@ impl BuildPage {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.set_max_width(ui.available_width() - f32::from(SCROLL_BAR));
             ui.add_space(GAP);
-            if inputs_ui(ui, &mut self.judgments, &mut self.paths, &mut self.scale, session) {
+            let inputs = inputs_ui(ui, &mut self.judgments, &mut self.paths, &mut self.scale, session);
+            if inputs.simulate {
                 let library = session.library_as_opened();
                 self.judgments.simulate(library, self.options.seed, ui.ctx());
             }
+            asked = inputs.command;
             ui.add_space(GROUP_GAP);
-            options_ui(ui, &mut self.options, self.judgments.ratings.values());
+            let is_rated_alone =
+                self.judgments.ratings.read.is_some() && self.judgments.sorting.read.is_none();
+            options_ui(ui, &mut self.options, self.judgments.ratings.values(), is_rated_alone);
         });
+        asked
     }
 
     /// Draws the build button, or the progress of the build.
@@ -174,7 +185,7 @@ impl BuildPage {
         {
             ui.add(Label::new(RichText::new(reason).color(t.error)).wrap());
         }
-        let can_build = self.judgments.sorting.read.is_some() && self.judgments.ratings.read.is_some();
+        let can_build = self.judgments.ratings.read.is_some();
         let name = if self.has_changed() { strings::BUILD_AGAIN } else { strings::BUILD_SPACE };
         let text = RichText::new(name).color(if can_build { t.on_accent } else { t.text_weak });
         let button = Button::new(text);
@@ -185,7 +196,7 @@ impl BuildPage {
             self.start(session, ui.ctx());
         }
         if !can_build {
-            weak(ui, strings::NEEDS_BOTH, t.text_weak);
+            weak(ui, strings::NEEDS_RATINGS, t.text_weak);
         }
     }
 
@@ -211,6 +222,14 @@ impl BuildPage {
         self.failure = None;
         self.job = Some((Job::start(order, ctx), self.recipe()));
     }
+}
+
+/// Index of the figure to show: `shown`, or the first mean ratings if it is empty, because there are no sorts.
+fn with_data(built: &BuiltSpace, shown: usize) -> usize {
+    let is_empty = |figure: &Figure| matches!(figure, Figure::Chart(chart) if chart.series.is_empty());
+    let is_kept = built.figures.get(shown).is_some_and(|(_, figure)| !is_empty(figure));
+    let of_ratings = || built.figures.iter().position(|(name, _)| name.starts_with(RATING_FIGURE));
+    if is_kept { shown } else { of_ratings().unwrap_or(0) }
 }
 
 /// Draws the progress of the build and the button that cancels it.

@@ -6,8 +6,8 @@ use egui::{Button, Context};
 use egui_material_icons::MaterialIcon;
 use egui_material_icons::icons::ICON_CLOSE;
 pub(crate) use egui_material_icons::icons::{
-    ICON_DARK_MODE, ICON_FIT_SCREEN, ICON_LIGHT_MODE, ICON_PLAY_ARROW, ICON_REDO, ICON_RESTART_ALT,
-    ICON_STOP, ICON_UNDO, ICON_VOLUME_OFF, ICON_VOLUME_UP, ICON_ZOOM_IN, ICON_ZOOM_OUT,
+    ICON_ASSIGNMENT, ICON_DARK_MODE, ICON_FIT_SCREEN, ICON_LIGHT_MODE, ICON_PLAY_ARROW, ICON_REDO,
+    ICON_RESTART_ALT, ICON_STOP, ICON_UNDO, ICON_VOLUME_OFF, ICON_VOLUME_UP, ICON_ZOOM_IN, ICON_ZOOM_OUT,
 };
 
 use crate::look::theme::tokens;

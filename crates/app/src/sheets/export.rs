@@ -274,14 +274,12 @@ impl ExportSheet {
             };
             let text = strings::format(format.name, format.ending);
             let button = Button::selectable(self.format == format, text);
-            let mut response = ui.add_enabled(problem.is_none(), button).accessible_name(format.name);
-            if let Some(problem) = problem {
-                response = response.on_disabled_hover_text(problem.as_str());
-            }
-            if response.clicked() {
+            if ui.add_enabled(problem.is_none(), button).accessible_name(format.name).clicked() {
                 self.format = format;
             }
-            ui.add(Label::new(RichText::new(format.help).small().color(t.text_weak)).selectable(false));
+            let (below, color) =
+                problem.map_or((format.help, t.text_weak), |problem| (problem.as_str(), t.warning));
+            ui.add(Label::new(RichText::new(below).small().color(color)).wrap().selectable(false));
         }
         if self.format == before {
             return false;

@@ -1,6 +1,7 @@
 //! Question about a picture: whether it finds its point, or becomes the relief of a texture.
 
 use egui::{Button, Context, Label, RichText, Ui, vec2};
+use shagreen_core::surfaces::prompt::title;
 
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
@@ -12,19 +13,24 @@ use crate::strings::relief as strings;
 
 /// Width of the sheet, in points.
 const WIDTH: f32 = 420.0;
+/// Most characters of the prompt on a button.
+const LONGEST_WORDS: usize = 40;
 
 pub(crate) struct ReliefChoice {
     picture: Source,
     of: ReliefOf,
     /// Name of the texture.
     name: String,
+    /// Words in the prompt box, if they are about touch.
+    prompt: Option<String>,
     is_focused: bool,
 }
 
 impl ReliefChoice {
-    /// Question about a picture; `name` is that of the texture that would get the relief.
-    pub(crate) fn new(picture: Source, of: ReliefOf, name: String) -> Self {
-        Self { picture, of, name, is_focused: false }
+    /// Question about a picture; `name` is that of the texture that would get the relief, `prompt` a description of the
+    /// surface.
+    pub(crate) fn new(picture: Source, of: ReliefOf, name: String, prompt: Option<String>) -> Self {
+        Self { picture, of, name, prompt, is_focused: false }
     }
 
     /// Draws the question; returns the requested commands.
@@ -49,6 +55,16 @@ impl ReliefChoice {
         if find.clicked() {
             let look = Command::Prompt(PromptCommand::Look(vec![self.picture.clone()]));
             commands.extend([Command::CloseSheet, look]);
+        }
+        if let Some(prompt) = &self.prompt {
+            let words = title(prompt, LONGEST_WORDS).unwrap_or_default();
+            let find_with = strings::find_point_with(&words);
+            let find = ui.add(wide(ui, &find_with).truncate()).accessible_name(&find_with);
+            if find.on_hover_text(strings::FIND_POINT_WITH_HELP).clicked() {
+                let (photo, prompt) = (self.picture.clone(), prompt.clone());
+                let look = Command::Prompt(PromptCommand::LookWith { photo, prompt });
+                commands.extend([Command::CloseSheet, look]);
+            }
         }
         let use_it = strings::use_as_relief(&self.name);
         let relief = ui.add(wide(ui, &use_it).truncate()).accessible_name(&use_it);

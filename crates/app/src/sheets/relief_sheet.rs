@@ -9,7 +9,7 @@ use egui::{
 };
 use shagreen_core::texture::height_map::HeightMapOptions;
 use shagreen_formats::height_picture::PictureTile;
-use shagreen_formats::picture::Picture;
+use shagreen_formats::picture::{PHOTO_ENDINGS, Picture};
 use shagreen_studio::height_map::{HEIGHTS_UM, PictureRelief, ReliefSize, SIDES_MM, relief};
 
 use crate::browse::{Asked, BROWSE_WIDTH, Browse};
@@ -18,7 +18,6 @@ use crate::command::relief::{ReliefCommand, ReliefOf};
 use crate::look::motion::busy_ui;
 use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, GROUP_GAP, RADIUS, tokens};
-use crate::sheets::PICTURE_ENDINGS;
 use crate::state::background::{JobPanicked, LatestJob};
 use crate::state::own_surface::{OwnSurface, SurfacePicture};
 use crate::state::pad_surface::USUAL_LIGHT;
@@ -281,7 +280,7 @@ impl ReliefSheet {
 
 /// What the dialog of the system asks for.
 fn asked() -> Asked<'static> {
-    Asked { title: strings::TITLE, kind: strings::KIND, endings: &PICTURE_ENDINGS, ..Asked::default() }
+    Asked { title: strings::TITLE, kind: strings::KIND, endings: &PHOTO_ENDINGS, ..Asked::default() }
 }
 
 /// Draws a number with its label, and whether it is only the default; returns whether it was changed.

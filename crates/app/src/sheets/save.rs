@@ -1,4 +1,4 @@
-//! Sheet that saves a library, figure, stroke or project. It asks before it replaces a file, and warns about textures that
+//! Sheet that saves a library, figure, stroke, project or blank table. It asks before it replaces a file, and warns about textures that
 //! must not be redistributed.
 
 mod content;
@@ -16,6 +16,7 @@ use crate::look::theme::{GAP, Tokens, tokens};
 use crate::sheets::path_field::{PathField, PathTexts, completed};
 use crate::sheets::save::content::{Content, Outcome, write};
 use crate::state::background::in_background;
+use crate::state::blank_file::BlankFile;
 use crate::state::document::CREATED_BY;
 use crate::state::figure_file::FigureFile;
 use crate::state::stroke_file::StrokeFile;
@@ -47,6 +48,7 @@ enum State {
 enum Subject {
     Library,
     Figure(FigureFile),
+    Blank(BlankFile),
     Stroke(StrokeFile),
     Project(Box<Project>),
 }
@@ -61,6 +63,12 @@ impl SaveSheet {
     pub fn figure(figure: FigureFile, folder: &Path) -> Self {
         let path = folder.join(figure.file_name()).display().to_string();
         Self::of(Subject::Figure(figure), path)
+    }
+
+    /// Sheet that saves a blank table or instructions, by default in `folder`.
+    pub fn blank(file: BlankFile, folder: &Path) -> Self {
+        let path = folder.join(file.file_name()).display().to_string();
+        Self::of(Subject::Blank(file), path)
     }
 
     /// Sheet that saves a stroke, by default at `path`.
@@ -82,7 +90,7 @@ impl SaveSheet {
         self.path.offer(folders);
     }
 
-    /// Folder in which a figure or stroke was saved.
+    /// Folder in which a figure, stroke or blank table was saved.
     pub fn folder_of_export(&self) -> Option<&Path> {
         let State::Saved(path) = &self.state else { return None };
         let is_export = !matches!(self.subject, Subject::Library | Subject::Project(_));
@@ -127,6 +135,7 @@ impl SaveSheet {
         let (title, name, hint) = match &self.subject {
             Subject::Library => (strings::SAVE_TITLE, strings::SAVE_PATH, strings::SAVE_HINT),
             Subject::Figure(_) => (build::SAVE_TITLE, build::SAVE_PATH, build::SAVE_HINT),
+            Subject::Blank(_) => (build::BLANK_TITLE, build::BLANK_PATH, build::BLANK_HINT),
             Subject::Stroke(_) => (stroke::SAVE_TITLE, stroke::SAVE_PATH, stroke::SAVE_HINT),
             Subject::Project(_) => (document::SAVE_TITLE, document::SAVE_PATH, document::SAVE_HINT),
         };
@@ -144,7 +153,7 @@ impl SaveSheet {
         let restricted: Vec<&str> = match &self.subject {
             Subject::Library => library.restricted().map(|entry| entry.name.as_str()).collect(),
             Subject::Project(project) => project.restricted().map(|entry| entry.name.as_str()).collect(),
-            Subject::Figure(_) | Subject::Stroke(_) => Vec::new(),
+            Subject::Figure(_) | Subject::Blank(_) | Subject::Stroke(_) => Vec::new(),
         };
         if let Some(warning) = Provenance::warning(&restricted) {
             ui.add(Label::new(RichText::new(warning).color(t.warning)).wrap());
@@ -178,6 +187,7 @@ impl SaveSheet {
                 Subject::Figure(figure) => {
                     (build::to_save(&figure.title(), figure.format.word()), t.text_weak)
                 }
+                Subject::Blank(file) => (file.about().to_owned(), t.text_weak),
                 Subject::Stroke(file) => (stroke::to_save(file.secs()), t.text_weak),
                 Subject::Project(project) => {
                     let is_inside = matches!(project.library, ProjectLibrary::Inside(_));
@@ -187,6 +197,7 @@ impl SaveSheet {
             State::Exists => match &self.subject {
                 Subject::Library => (strings::EXISTS.to_owned(), t.warning),
                 Subject::Figure(figure) => (build::exists(figure.format.word()), t.warning),
+                Subject::Blank(_) => (build::BLANK_EXISTS.to_owned(), t.warning),
                 Subject::Stroke(_) => (stroke::EXISTS.to_owned(), t.warning),
                 Subject::Project(_) => (document::EXISTS.to_owned(), t.warning),
             },
@@ -203,6 +214,7 @@ impl SaveSheet {
                 Content::Library(Box::new(Library { created_by: CREATED_BY.to_owned(), ..library.clone() }))
             }
             Subject::Figure(figure) => Content::Figure(figure.clone()),
+            Subject::Blank(file) => Content::Blank(file.clone()),
             Subject::Stroke(file) => Content::Stroke(file.clone()),
             Subject::Project(_) => Content::Project,
         };
@@ -235,6 +247,7 @@ impl Subject {
         match self {
             Self::Library => "json",
             Self::Figure(figure) => figure.format.ending(),
+            Self::Blank(file) => file.ending(),
             Self::Stroke(_) => "csv",
             Self::Project(_) => EXTENSION,
         }

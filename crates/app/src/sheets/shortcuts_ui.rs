@@ -28,12 +28,13 @@ pub(crate) fn shortcuts_ui(ctx: &Context) -> Option<Command> {
         let commands = listed().filter_map(keys_of);
         let more = strings::MORE_KEYS.into_iter().map(|(keys, what)| (keys.to_owned(), what));
         let all: Vec<(String, &str)> = commands.chain(more).collect();
-        // In two columns, so that a low window shows them all. The rows of the second one are higher.
+        // In two columns and low rows, so that a low window shows them all.
         ui.columns(2, |columns| {
-            for (side, part) in all.chunks((3 * all.len()).div_ceil(5)).enumerate() {
+            for (side, part) in all.chunks(all.len().div_ceil(2)).enumerate() {
                 let grid = Grid::new(("shortcuts", side))
                     .num_columns(2)
                     .max_col_width(LABEL_WIDTH)
+                    .min_row_height(0.0)
                     .spacing([16.0, 3.0])
                     .striped(true);
                 grid.show(&mut columns[side], |ui| {

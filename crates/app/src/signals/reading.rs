@@ -17,7 +17,8 @@ use crate::state::source::sidecar_of;
 use crate::strings::signals as strings;
 
 /// Endings of the names of files that become signals.
-pub(crate) const SIGNAL_ENDINGS: [&str; 5] = ["wav", "csv", "png", "jpg", "jpeg"];
+pub(crate) const SIGNAL_ENDINGS: [&str; 9] =
+    ["wav", "csv", "png", "jpg", "jpeg", "webp", "bmp", "tif", "tiff"];
 
 /// Information that a file does not contain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -142,9 +143,10 @@ fn without_ending(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{BenchFile, FileKind, Terms};
+    use super::{BenchFile, FileKind, SIGNAL_ENDINGS, Terms};
     use crate::state::source::Source;
     use shagreen_core::units::MetersPerSecond;
+    use shagreen_formats::picture::PHOTO_ENDINGS;
     use shagreen_formats::wav::{SidecarV1, write_wav};
 
     fn file(folder: &std::path::Path, name: &str, bytes: &[u8]) -> BenchFile {
@@ -193,6 +195,11 @@ mod tests {
             let reason = picture.signal(&Terms { row, ..terms }).unwrap_err();
             assert!(reason.contains(expected), "{reason}");
         }
+    }
+
+    #[test]
+    fn photos_of_all_formats_become_signals() {
+        assert!(PHOTO_ENDINGS.iter().all(|ending| SIGNAL_ENDINGS.contains(ending)));
     }
 
     #[test]

@@ -75,6 +75,18 @@ pub enum Edit {
         /// Generated notes.
         notes: String,
     },
+    /// Moves the texture to the lexicon entry of a material that its picture shows, or back to the estimate from the picture.
+    /// Ends solo.
+    TakeMaterial {
+        /// Name of the material; `None` for the estimate from the picture.
+        material: Option<String>,
+        /// Position in the space.
+        at: SpacePoint,
+        /// The same picture in memory of its own, which identifies the estimate.
+        picture: Arc<Picture>,
+        /// Notes.
+        notes: String,
+    },
     /// Adds an authored texture and selects it.
     Author(AuthoredTexture),
     /// Deletes the authored texture with this key, unless it is the last one.
@@ -202,6 +214,9 @@ impl Edit {
             Self::SetPicture(Some(_)) => strings::pictured(name).into(),
             Self::SetPicture(None) => strings::unpictured(name).into(),
             Self::Remake { .. } => crate::strings::prompt::remade(name).into(),
+            Self::TakeMaterial { material, .. } => {
+                crate::strings::prompt::took(name, material.as_deref()).into()
+            }
             Self::ChangePath(change, _) => change.label().into(),
             Self::Author(texture) => strings::authored(&texture.name).into(),
             Self::Remove(key) => strings::removed(name_of(project, *key)).into(),
@@ -304,7 +319,7 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         Edit::SetNotes(notes) => change(&mut project, |texture| texture.notes = begin_of(notes, MAX_NOTES)),
         Edit::SetTags(tags) => change(&mut project, |texture| texture.tags = tags),
         Edit::SetPicture(picture) => change(&mut project, |texture| texture.picture = picture),
-        Edit::Remake { at, picture, notes } => {
+        Edit::Remake { at, picture, notes } | Edit::TakeMaterial { at, picture, notes, .. } => {
             project.solo = None;
             change(&mut project, |texture| {
                 (texture.at, texture.picture, texture.notes) = (at, Some(picture), notes);

@@ -7,6 +7,9 @@ use shagreen_core::people::ratings::{Rating, RelevanceVote};
 use shagreen_core::people::sorting::Sort;
 use shagreen_core::space::selection::Method;
 use shagreen_core::space::space_build::{FeatureKind, PlacedBy, Step};
+use shagreen_formats::questionnaire::USUAL_PARTICIPANTS;
+use shagreen_formats::space_report::RATING_FIGURE;
+use shagreen_studio::questionnaire::ExperimentFile;
 
 // Inputs.
 pub const MADE_OF: &str = "Inputs";
@@ -15,8 +18,7 @@ pub const TABLES: &str = "Tables";
 pub const SORTING: &str = "Sorting";
 pub const RATINGS: &str = "Ratings";
 pub const VOTES: &str = "Relevance votes";
-pub const SORTING_HELP: &str =
-    "CSV table of the groups into which each participant sorted the textures. Required.";
+pub const SORTING_HELP: &str = "CSV table of the groups into which each participant sorted the textures. Without it, the positions are the mean ratings.";
 pub const RATINGS_HELP: &str =
     "CSV table of ratings of each texture between two opposite adjectives, 0 to 100. Required.";
 pub const VOTES_HELP: &str =
@@ -37,6 +39,7 @@ pub fn save(title: &str) -> String {
 pub const NOTHING_YET: &str = "none yet";
 pub const OPTIONAL: &str = "optional";
 pub const READING: &str = "Reading…";
+pub const QUESTIONNAIRES: &str = "Questionnaires";
 pub const SIMULATE: &str = "Try with simulated raters";
 pub const SIMULATE_HELP: &str = "Ten simulated raters sort and rate the textures from their library positions, attributes and physical quantities, with noise. Use them only to try the workflow, never for conclusions.";
 pub const PARTICIPANTS: &str = "participants";
@@ -45,19 +48,20 @@ pub const SIMULATED_PANEL: &str = "simulated raters";
 // Options.
 pub const OPTIONS: &str = "Options";
 pub const DIMENSIONS: &str = "Dimensions";
+pub const NEEDS_SORTS: &str = "Without sorts there is no perceptual space, so this option has no effect.";
 pub const DIMENSIONS_HELP: &str = "Number of dimensions of the perceptual space (multidimensional scaling). More dimensions lower the stress and fit the adjectives better.";
 pub const TIES: &str = "Ties";
 pub const TIES_HELP: &str = "Treatment of texture pairs with equal similarity: primary lets their distances differ, secondary makes their distances equal. Interval makes all distances a linear function of the dissimilarities (metric scaling). Automatic is primary, or interval if the solution of primary is degenerate.";
 pub const FIRST_AXIS: &str = "X axis";
 pub const SECOND_AXIS: &str = "Y axis";
-pub const AXIS_HELP: &str = "Adjective pair that becomes this axis. Automatic takes rough to smooth and hard to soft if they were rated, else the pair that correlates best with each dimension.";
+pub const AXIS_HELP: &str = "Adjective pair that becomes this axis. Automatic takes rough to smooth and hard to soft if they were rated, else the pair that correlates best with each dimension. Without sorts, it takes the two least correlated pairs with reliable ratings.";
 pub const AUTOMATIC: &str = "automatic";
 pub const FEATURES: &str = "Features";
 pub const FEATURES_HELP: &str = "Vibration features that predict the position of a texture.";
 pub const SELECTION: &str = "Selection";
 pub const SELECTION_HELP: &str = "Method that selects and weights the features: the mean of ridge regressions, or the published forward selection, which adds features by partial F or in order of correlation (ranked).";
 pub const PLACEMENT: &str = "Positions";
-pub const PLACEMENT_HELP: &str = "Source of the positions: perceived (from the judgments) or predicted (from the features). Automatic uses the prediction for an axis if its nested correlation is at least 0.85.";
+pub const PLACEMENT_HELP: &str = "Source of the positions: perceived (from the judgments) or predicted (from the features). Automatic uses the prediction for an axis if its nested correlation is at least 0.85, and the mean ratings without sorts.";
 pub const ORTHOGONAL: &str = "Orthogonal axes";
 pub const ORTHOGONAL_HELP: &str = "Rotates the second axis to a right angle with the first, so that a move along one leaves the other unchanged.";
 pub const PERMUTATIONS: &str = "Permutations";
@@ -71,7 +75,7 @@ pub const BUILD_AGAIN: &str = "Build again";
 pub const CANCEL: &str = "Cancel";
 pub const CANCEL_HELP: &str = "Stops the build. The previous space stays.";
 pub const STOPPING: &str = "Stopping…";
-pub const NEEDS_BOTH: &str = "A sorting table and a ratings table are required.";
+pub const NEEDS_RATINGS: &str = "A ratings table is required. A sorting table is optional.";
 pub const CHANGED: &str =
     "Library, judgments or options have changed since this space was built. Build it again.";
 pub const BROKEN: &str = "The build stopped unexpectedly; try other options, or only part of the judgments.";
@@ -79,11 +83,11 @@ pub const BROKEN: &str = "The build stopped unexpectedly; try other options, or 
 // Before a space is built.
 pub const EMPTY_TITLE: &str = "From judgments to a space";
 pub const EMPTY_STEPS: [&str; 3] = [
-    "Participants sort the textures into groups by feel, and rate each one between pairs of adjectives.",
-    "Enter the paths of both tables on the left, or drop the files here. Simulated raters need no tables.",
+    "Participants rate each texture between pairs of adjectives, and can sort the textures into groups by feel.",
+    "Enter the paths of the tables on the left, or drop the files here. Simulated raters need no tables.",
     "Build the space, check its figures and validation, then use it.",
 ];
-pub const SORTING_EXAMPLE_TITLE: &str = "Sorting: one row for each texture in each sort";
+pub const SORTING_EXAMPLE_TITLE: &str = "Sorting (optional): one row for each texture in each sort";
 pub const SORTING_EXAMPLE: &str = "participant,trial,groups,texture,group\np01,1,3,cork,a";
 pub const RATINGS_EXAMPLE_TITLE: &str = "Ratings: one row for each participant and texture, 0 to 100";
 pub const RATINGS_EXAMPLE: &str = "participant,texture,rough-smooth,hard-soft\np01,cork,41,70.5";
@@ -103,11 +107,54 @@ pub const FIGURES: &str = "Figures";
 pub const SAVE_SVG: &str = "Save SVG…";
 pub const SAVE_PNG: &str = "Save PNG…";
 pub const SAVE_CSV: &str = "Save CSV…";
+/// Choice of the adjective pair whose mean ratings are shown.
+pub const RATED_PAIR: &str = "Adjective pair";
 pub const SAVE_TITLE: &str = "Save figure";
 pub const SAVE_PATH: &str = "Path of the figure file";
 pub const SAVE_HINT: &str = "/path/to/figure";
+pub const BLANK_TITLE: &str = "Save questionnaire";
+pub const BLANK_PATH: &str = "Path of the questionnaire file";
+pub const BLANK_HINT: &str = "/path/to/ratings.csv";
+pub const BLANK_EXISTS: &str =
+    "A blank file of this kind exists at this path. Replace it, or choose another path.";
+pub const NOT_BLANK: &str =
+    "The file at this path is not a blank file of this kind and is not replaced. Choose another path.";
 pub const DROP_HERE: &str = "Drop sorting, ratings or votes";
 pub const DROP_KINDS: &str = "CSV tables of sorting, ratings and relevance votes";
+
+/// Tooltip of the menu of questionnaires.
+pub fn questionnaires_help() -> String {
+    format!(
+        "Blank tables and instructions for an experiment with the textures of the open library and {USUAL_PARTICIPANTS} participants. The command “space questionnaire” writes them for other numbers."
+    )
+}
+
+/// Entry in the menu of questionnaires.
+pub fn blank_file(file: ExperimentFile) -> &'static str {
+    match file {
+        ExperimentFile::Ratings => "Table of ratings…",
+        ExperimentFile::Votes => "Table of relevance votes…",
+        ExperimentFile::Instructions => "Instructions…",
+    }
+}
+
+/// Accessible name of an entry in the menu of questionnaires.
+pub fn blank_file_of(file: ExperimentFile, questionnaire: &str) -> String {
+    format!("{questionnaire}: {}", blank_file(file).trim_end_matches('…'))
+}
+
+/// What the file of a questionnaire contains.
+pub fn to_save_blank(file: ExperimentFile, questionnaire: &str, n_textures: usize) -> String {
+    let what = match file {
+        ExperimentFile::Ratings => "a blank table of ratings",
+        ExperimentFile::Votes => "a blank table of votes on the relevance of adjectives",
+        ExperimentFile::Instructions => "the instructions",
+    };
+    format!(
+        "Saves {what} for {USUAL_PARTICIPANTS} participants and {}: {questionnaire}.",
+        count(n_textures, "texture")
+    )
+}
 
 pub fn of_the_library(n_textures: usize) -> String {
     format!("{n_textures} textures of the open library")
@@ -180,7 +227,7 @@ pub fn step(step: Step) -> String {
     let what = match step {
         Step::Sorting => "pooling sorts",
         Step::Scaling => "scaling the perceptual space",
-        Step::Adjectives => "fitting adjectives",
+        Step::Adjectives => "analyzing the ratings",
         Step::Features => "computing features",
         Step::Axis(0) => "predicting the x axis",
         Step::Axis(_) => "predicting the y axis",
@@ -229,6 +276,8 @@ pub fn figure(name: &str) -> &str {
         "predicted-2" => "Predicted y",
         "authoring-space" => "Authoring",
         "shepard" => "Shepard",
+        "components" => "Components",
+        of_ratings if of_ratings.starts_with(RATING_FIGURE) => "Mean ratings",
         other => other,
     }
 }

@@ -9,9 +9,9 @@ pub const TITLE: &str = "Import";
 /// Kind of file in the dialog of the system.
 pub const KIND: &str = "Recordings, models, libraries and pictures";
 pub const DROP_HERE: &str = "Drop recordings, photos, models or a library";
-pub const DROP_KINDS: &str = "Recordings (CSV, TXT, TSV, WAV) · photos (JPEG, PNG) · HaTT models (XML) · a Shagreen library (JSON) · a column map (map.toml) · a folder of these";
+pub const DROP_KINDS: &str = "Recordings (CSV, TXT, TSV, WAV) · photos (JPEG, PNG, WebP, BMP, TIFF) · HaTT models (XML) · libraries (JSON) · a column map (map.toml) · folders";
 /// Files that can be imported, below the reason why one cannot be.
-pub const ACCEPTED: &str = "Files that can be imported: recordings (CSV, TXT, TSV, WAV), photos (JPEG, PNG), HaTT models (XML), Shagreen libraries (JSON), a column map (map.toml), and folders of these.";
+pub const ACCEPTED: &str = "Files that can be imported: recordings (CSV, TXT, TSV, WAV), photos (JPEG, PNG, WebP, BMP, TIFF), HaTT models (XML), Shagreen libraries (JSON), a column map (map.toml), and folders of these.";
 pub const PATHS: &str = "Paths of files or folders";
 pub const PATHS_HINT: &str = "Path of a file or folder…";
 pub const READ: &str = "Read";

@@ -2,6 +2,8 @@
 
 use shagreen_core::surfaces::prompt::{PromptInterpretation, Word};
 
+use crate::strings::sentence;
+
 pub const HINT: &str = "Describe a surface: a rough, soft carpet";
 pub const FIELD: &str = "Describe a surface";
 pub const FIELD_HELP: &str = "Generates a texture from the description (Enter): a picture, an estimated position in the space, and after some seconds a texture that feels as the picture looks. A photo dropped on the window gives a texture, too.";
@@ -38,6 +40,10 @@ pub const A_PHOTO: &str = "photo";
 const TEMPERATURES: [&str; 4] = ["warm", "cold", "hot", "icy"];
 const NO_TEMPERATURE: &str = "Temperature is not rendered: words such as warm or cold change only roughness, hardness and pleasantness.";
 pub const NO_SCALE: &str = "The physical width of the picture is not known.";
+pub const BY_WORDS: &str = "Position estimated from the words; nobody rated it.";
+pub const LOOKS_LIKE: &str = "Looks like";
+pub const NO_ENTRY: &str = "The lexicon has no estimates for this material.";
+pub const UNTAKE_HELP: &str = "Moves the point back to the estimate from the picture.";
 
 /// Estimated position along an axis: the word at its upper end, mean and standard deviation.
 pub fn along([low, high]: &[String; 2], mean: f64, deviation: f64) -> String {
@@ -86,6 +92,11 @@ pub fn disputed(axes: &[String]) -> String {
     format!("Estimates from the words and from the picture disagree about {}.", axes.join(" and "))
 }
 
+/// Sentence about the axes on which a procedural picture, which was made from the words, looks different.
+pub fn picture_differs(axes: &[String]) -> String {
+    format!("The picture looks different about {}; the position is that of the words.", axes.join(" and "))
+}
+
 /// Sentence about the generator of the picture.
 pub fn made_by(made_by: &str, seed: u64) -> String {
     format!("Picture: {made_by}, seed {seed}.")
@@ -96,14 +107,44 @@ pub fn seen_by(eyes: &str) -> String {
     format!("Position estimated from the picture by {eyes}; nobody rated it.")
 }
 
+/// Sentence about the sources of a position that was estimated from words and from an independent picture.
+pub fn seen_with_words(eyes: &str) -> String {
+    format!("Position estimated from the words, and from the picture by {eyes}; nobody rated it.")
+}
+
+/// Sentence about a doubt about the picture.
+pub fn doubt(text: &str) -> String {
+    format!("{}.", sentence(text))
+}
+
+/// Sentence about the source of a position that the user has taken from the lexicon.
+pub fn by_material(material: &str) -> String {
+    format!("Position of {material} in the lexicon, an estimate of the authors; nobody rated it.")
+}
+
+/// What a click on a likely material does.
+pub fn take_help(material: &str) -> String {
+    format!("Moves the point to the lexicon's estimate of {material}, instead of the one from the picture.")
+}
+
 /// Note of a texture that was generated from a prompt.
 pub fn note_of_words(made_by: &str, seed: u64, prompt: &str) -> String {
     format!("Generated from a prompt by the {made_by}, seed {seed}: {prompt}")
 }
 
-/// Note of a texture that was made from a photo.
-pub fn note_of_photo(name: &str) -> String {
-    format!("Position estimated from the photo {name}; nobody rated it.")
+/// Note of a texture that was made from a photo, and from words if there were any.
+pub fn note_of_photo(name: &str, prompt: Option<&str>) -> String {
+    match prompt {
+        None => format!("Position estimated from the photo {name}; nobody rated it."),
+        Some(prompt) => {
+            format!("Position estimated from the photo {name} and the words \"{prompt}\"; nobody rated it.")
+        }
+    }
+}
+
+/// Note of a texture at the position of a material that its photo is likely to show.
+pub fn note_of_material_in_photo(name: &str, material: &str) -> String {
+    format!("Photo {name}. {}", by_material(material))
 }
 
 /// Menu entry of an earlier prompt.
@@ -120,6 +161,14 @@ pub fn guessed(name: &str) -> String {
 /// Name of the edit that adds the simulated texture of a picture.
 pub fn simulated(name: &str) -> String {
     format!("Simulate {name}")
+}
+
+/// Name of the edit that takes the lexicon entry of a material, or again the estimate from the picture.
+pub fn took(name: &str, material: Option<&str>) -> String {
+    match material {
+        Some(material) => format!("Move {name} to {material}"),
+        None => format!("Move {name} to estimate from picture"),
+    }
 }
 
 /// Name of the edit that replaces a generated texture.

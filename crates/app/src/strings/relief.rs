@@ -2,8 +2,7 @@
 
 pub const TITLE: &str = "Relief from a picture";
 pub const MENU: &str = "Relief from a picture…";
-pub const MENU_HELP: &str =
-    "Gives the texture the heights of a photo or a height map (JPEG, PNG), in a size that you state.";
+pub const MENU_HELP: &str = "Gives the texture the heights of a photo or a height map (JPEG, PNG, WebP, BMP, TIFF), in a size that you state.";
 pub const IS_PATH: &str =
     "A texture path cannot have a relief. Add the relief to the textures from which the path is made.";
 pub const NO_MODEL: &str = "This interpolation mode mixes signals, so there is no texture that can have a relief; choose Field or Parametric.";
@@ -27,8 +26,7 @@ pub const SIDE: &str = "Side of the picture";
 pub const SIDE_HELP: &str =
     "Side of the surface in the central square of the picture, in mm. Measure it, or estimate it.";
 pub const HEIGHT: &str = "Height of white above black";
-pub const HEIGHT_HELP: &str =
-    "Height of the white places above the black ones, in µm. For a photo, it is your estimate.";
+pub const HEIGHT_HELP: &str = "Height of the white places above the black ones, in µm. For a photo, it is your estimate. For a TIFF with floating-point or signed numbers, the height of the highest place above the lowest.";
 pub const DEFAULT: &str = "default, not measured";
 
 pub const APPLY: &str = "Apply";
@@ -39,8 +37,14 @@ pub const ASK_TITLE: &str = "Use of the picture";
 pub const FIND_POINT: &str = "Estimate its position";
 pub const FIND_POINT_HELP: &str =
     "Estimates a position from the picture, and adds an authored texture there.";
+pub const FIND_POINT_WITH_HELP: &str = "Estimates a position from the picture and from the words in the prompt box, and adds an authored texture there.";
 pub const RELIEF_HELP: &str =
     "Gives the texture the heights of the picture; the next sheet asks for side and height.";
+
+/// Button that estimates a position from a picture and these words.
+pub fn find_point_with(words: &str) -> String {
+    format!("Estimate its position, with \"{words}\"")
+}
 
 /// Button that uses a picture as the relief of this texture.
 pub fn use_as_relief(name: &str) -> String {

@@ -56,7 +56,7 @@ pub fn open(slot: Slot) -> String {
     of("Open a file as", slot)
 }
 
-pub const OPEN_HELP: &str = "Opens a recording (.wav), a profile of positions and values (.csv), or one row of a photo or height map (.png, .jpg). Files can also be dropped on the window.";
+pub const OPEN_HELP: &str = "Opens a recording (.wav), a profile of positions and values (.csv), or one row of a photo or height map (JPEG, PNG, WebP, BMP, TIFF). Files can also be dropped on the window.";
 pub const PATH_HINT: &str = "or a path…";
 
 /// Accessible name of the path field.
@@ -67,7 +67,7 @@ pub fn path_of(slot: Slot) -> String {
 pub const OPEN_TITLE: &str = "Open a signal";
 /// Kind of file in the dialog of the system.
 pub const OPEN_KIND: &str = "Signals, surface profiles and pictures";
-pub const OPEN_PATH_HINT: &str = "Path of a .wav, .csv, .png or .jpg file…";
+pub const OPEN_PATH_HINT: &str = "Path of a .wav or .csv file, a photo or a height map…";
 
 /// Accessible name of the button that removes signal A or B.
 pub fn remove(slot: Slot) -> String {
@@ -342,4 +342,5 @@ pub const EMPTY_STEPS: [&str; 4] = [
     "Edit the spatial spectrogram of B and feel the change at once. Add B to a texture as its relief: acceleration as a function of tip position.",
 ];
 pub const DROP_HERE: &str = "Drop signals here";
-pub const DROP_KINDS: &str = "recordings (.wav), profiles (.csv), photos or height maps (.png, .jpg)";
+pub const DROP_KINDS: &str =
+    "recordings (.wav), profiles (.csv), photos or height maps (JPEG, PNG, WebP, BMP, TIFF)";

@@ -7,11 +7,13 @@ use shagreen_formats::actuator_toml::built_in_actuators;
 use shagreen_studio::export::WAV;
 use shagreen_studio::file::shown_name;
 use shagreen_studio::height_map::ReliefPlace;
+use shagreen_studio::models::ModelFolder;
 
 use super::Window;
 use crate::author::inspector::name_field;
 use crate::author::new_texture::copy_of;
 use crate::author::texture_sheet::TextureSheet;
+use crate::command::networks::NetworksCommand;
 use crate::command::{Command, FileCommand};
 use crate::look::motion;
 use crate::look::notice::{clear_earlier_notice, clear_notice, show_notice};
@@ -22,6 +24,7 @@ use crate::sheets::Sheet;
 use crate::sheets::about_sheet::AboutSheet;
 use crate::sheets::devices::DevicesSheet;
 use crate::sheets::guide_sheet::GuideSheet;
+use crate::sheets::networks_sheet::NetworksSheet;
 use crate::sheets::palette::PaletteSheet;
 use crate::sheets::save::SaveSheet;
 use crate::state::compare::CompareCommand;
@@ -40,6 +43,21 @@ impl Window {
                 self.sheet = Sheet::Devices(Box::new(sheet));
             }
             Err(error) => self.session.say(error.to_string()),
+        }
+    }
+
+    /// Executes a command about the networks that predict attributes from photos.
+    fn carry_out_networks(&mut self, command: NetworksCommand) {
+        match command {
+            NetworksCommand::Open => {
+                let models = self.files.keeping.models.clone().map(ModelFolder::new);
+                let sheet = NetworksSheet::new(self.files.settings.photo_networks.as_ref(), models);
+                self.sheet = Sheet::Networks(Box::new(sheet));
+            }
+            NetworksCommand::Use(networks) => {
+                self.files.settings.photo_networks = Some(networks.clone());
+                self.prompts.use_networks(Some(networks));
+            }
         }
     }
 
@@ -211,6 +229,7 @@ impl Window {
             Command::Stroke(command) => self.carry_out_stroke(command, ctx),
             Command::ReadPhoto(source) => self.readers.photo.read(source, self.project.texture().key, ctx),
             Command::Prompt(command) => self.carry_out_prompt(command, ctx),
+            Command::Networks(command) => self.carry_out_networks(command),
             Command::Relief(command) => self.carry_out_relief(command, ctx),
             Command::ShowMap(quantity) => self.pages.author.map = quantity,
             Command::Compare(command) => self.carry_out_compare(command),
@@ -278,6 +297,9 @@ impl Window {
             Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library()),
             Command::SaveFigure(figure) => {
                 self.sheet = Sheet::Save(SaveSheet::figure(figure, &self.exports_folder));
+            }
+            Command::SaveBlank(file) => {
+                self.sheet = Sheet::Save(SaveSheet::blank(file, &self.exports_folder));
             }
             Command::CloseSheet => self.close_sheet(),
         }

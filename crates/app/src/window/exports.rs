@@ -10,23 +10,21 @@ use crate::sheets::export::{ExportSheet, ExportSubject};
 use crate::state::audible_texture::AudibleTexture;
 
 impl Window {
-    /// Opens the export sheet with the format of this id, or says why the texture cannot be exported in it.
+    /// Opens the export sheet with the format of this id. If the texture cannot be exported in it, the sheet opens with a
+    /// format that can, and says why; if it can be exported in none, the status bar says why.
     pub(super) fn open_export(&mut self, format: &str) {
         let Some(format) = listed().find(|listed| listed.id == format) else { return };
         let compared = self.compared_texture();
         let contact = self.pages.stage.pad.contact(&self.session);
         let signal = self.session.signal(&self.project, compared.as_deref(), contact);
         let entry = self.session.texture_entry(&self.project, compared.as_deref());
-        let problem = if format == WAV { signal.as_ref().err() } else { entry.as_ref().err() };
-        // Without a signal, the other formats may still be possible.
-        let other = listed().find(|listed| *listed != WAV).filter(|_| format == WAV && entry.is_ok());
-        let format = match (problem, other) {
-            (None, _) => format,
-            (Some(_), Some(other)) => other,
-            (Some(reason), None) => {
+        let problem_of = |format| if format == WAV { signal.as_ref().err() } else { entry.as_ref().err() };
+        let possible = std::iter::once(format).chain(listed()).find(|format| problem_of(*format).is_none());
+        let Some(possible) = possible else {
+            if let Some(reason) = problem_of(format) {
                 self.session.say(reason.clone());
-                return;
             }
+            return;
         };
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         let name = panel.heard_name();
@@ -40,7 +38,7 @@ impl Window {
         let n_authored = if self.session.authored().is_some() { self.project.authored.len() } else { 0 };
         let audible = AudibleTexture { name, signal, entry };
         let subject = ExportSubject { audible, is_solo, n_authored, contact };
-        let sheet = ExportSheet::new(subject, format, &self.exports_folder, &id);
+        let sheet = ExportSheet::new(subject, possible, &self.exports_folder, &id);
         self.sheet = Sheet::Export(Box::new(sheet));
         self.offer_folders();
     }

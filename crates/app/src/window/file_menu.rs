@@ -8,12 +8,13 @@ use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::settings::Settings;
 use shagreen_studio::export::WAV;
 
+use crate::command::networks::NetworksCommand;
 use crate::command::{Command, FileCommand};
 use crate::look::motion::is_reduced;
 use crate::look::theme::tokens;
 use crate::state::document::Document;
 use crate::state::edit::Edit;
-use crate::strings::{document as strings, export, gallery, motion};
+use crate::strings::{document as strings, export, gallery, motion, networks as networks_words};
 
 /// Maximum number of recent projects in the menu.
 const MOST_RECENT: usize = 6;
@@ -91,6 +92,8 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
                 commands.push(command);
             }
         }
+        let networks = Command::Networks(NetworksCommand::Open);
+        commands.extend(entry(ui, networks_words::MENU, &networks).on_hover(networks_words::MENU_HELP));
         ui.separator();
         let recent =
             files.settings.recent.iter().filter(|path| Some(path.as_path()) != open).take(MOST_RECENT);

@@ -11,7 +11,7 @@ use shagreen_studio::felt::{FELT_ORIGIN, felt_entry, replaceable_felt};
 
 use super::Window;
 use crate::author::new_texture::next_color;
-use crate::author::prompt::{Simulated, axis_names, has_still};
+use crate::author::prompt::{PositionEstimate, Simulated, axis_names, has_still};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
 use crate::panel::Panel;
@@ -25,13 +25,30 @@ const LEAST_DISTANCE: f64 = 0.1;
 impl Window {
     /// Executes a command about prompts, and records the prompt in the settings.
     pub(super) fn carry_out_prompt(&mut self, command: PromptCommand, ctx: &Context) {
+        if let PromptCommand::TakeMaterial(material) = command {
+            return self.take_material(material, ctx);
+        }
         let interrupts = matches!(command, PromptCommand::Make { .. } | PromptCommand::Another);
         if self.prompts.is_busy() && interrupts {
             return self.session.say(words::STILL_BUSY.to_owned());
         }
-        if let Some(kept) = self.prompts.carry_out(command, self.session.poles(), ctx) {
+        let (texture, poles) = (self.project.texture(), self.session.poles());
+        if let Some(kept) = self.prompts.carry_out(command, texture, poles, ctx) {
             self.files.settings.note_prompt(kept);
         }
+    }
+
+    /// Moves the selected texture to the lexicon entry of a material that its picture shows, or back to the estimate from the
+    /// picture.
+    fn take_material(&mut self, material: Option<String>, ctx: &Context) {
+        let texture = self.project.texture();
+        let Some(before) = self.prompts.guess_of(texture).map(PositionEstimate::notes) else { return };
+        let Some(guess) = self.prompts.take_material(texture, material.as_deref()) else { return };
+        // Notes that the user has written stay.
+        let notes = if texture.notes == before { guess.notes() } else { texture.notes.clone() };
+        let edit = Edit::TakeMaterial { material, at: guess.at(), picture: guess.picture, notes };
+        self.gesture.begin_another();
+        self.carry_out(Command::Edit(edit), ctx);
     }
 
     /// Adds the generated texture, or replaces the one that it was generated for.

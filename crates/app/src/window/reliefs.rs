@@ -28,7 +28,8 @@ impl Window {
             ReliefCommand::AskWhatFor(of, picture) => {
                 let of = of.unwrap_or_else(|| self.audible());
                 let name = self.name_of(&of).unwrap_or_default();
-                self.sheet = Sheet::ReliefChoice(ReliefChoice::new(picture, of, name));
+                let choice = ReliefChoice::new(picture, of, name, self.prompts.described());
+                self.sheet = Sheet::ReliefChoice(choice);
             }
             ReliefCommand::Begin(of, picture) => {
                 let of = of.unwrap_or_else(|| self.audible());

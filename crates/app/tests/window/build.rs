@@ -11,9 +11,12 @@ use shagreen_core::people::panel::{PanelConfig, simulated_ratings, simulated_sor
 use shagreen_core::space::LabelSource;
 use shagreen_core::space::space_build::FeatureKind;
 use shagreen_formats::library::read_library;
+use shagreen_formats::questionnaire::{is_blank_ratings, questionnaires};
 use shagreen_formats::ratings_csv::ratings_csv;
 use shagreen_formats::sorting_csv::sorting_csv;
+use shagreen_formats::space_report::RATING_FIGURE;
 use shagreen_formats::starter::starter_library;
+use shagreen_studio::questionnaire::ExperimentFile;
 
 use crate::support::{
     Author, author, author_on, choose, click, drop_files, enter_path, painted, says, shown, unnamed_controls,
@@ -55,6 +58,18 @@ fn use_space(harness: &mut Author) {
 fn set_number(harness: &mut Author, name: &str, value: f64) {
     harness.get_by_role_and_label(Role::SpinButton, name).set_value_accesskit(value);
     harness.run_steps(2);
+}
+
+/// Shows the figure with this name; those of mean ratings share a tab, in which the adjective pair is chosen.
+fn show_figure(harness: &mut Author, name: &str) {
+    let tab = build::figure(name);
+    click(harness, tab);
+    harness.run_steps(2);
+    if let Some(number) = name.strip_prefix(RATING_FIGURE) {
+        let number: usize = number.parse().unwrap();
+        let pair = window(harness).build().built().unwrap().build.adjectives[number - 1].pair.name();
+        choose(harness, build::RATED_PAIR, &pair);
+    }
 }
 
 /// Saves the shown figure to a file.
@@ -99,10 +114,8 @@ fn a_space_is_built_looked_at_used_and_undone() {
     let mut harness = built();
     let space = window(&harness).build().built().unwrap().build.clone();
     assert_eq!(space.source, LabelSource::SimulatedRaters);
-    for (name, _) in window(&harness).build().built().unwrap().figures.clone() {
-        click(&mut harness, build::figure(name));
-        let (_, figure) =
-            window(&harness).build().built().unwrap().figures.iter().find(|f| f.0 == name).unwrap().clone();
+    for (name, figure) in window(&harness).build().built().unwrap().figures.clone() {
+        show_figure(&mut harness, &name);
         assert!(says(&harness, &figure.title()), "{name} is not shown");
         assert!(figure.title().contains("simulated raters"), "{}", figure.title());
     }
@@ -147,7 +160,7 @@ fn dots_of_a_figure_have_names_and_say_them() {
     click(&mut harness, build::figure("perceptual-space"));
     harness.run_steps(2);
     let figures = &window(&harness).build().built().unwrap().figures;
-    let title = figures.iter().find(|(name, _)| *name == "perceptual-space").unwrap().1.title();
+    let title = figures.iter().find(|(name, _)| name == "perceptual-space").unwrap().1.title();
     let written: Vec<String> = painted(&harness, &title).iter().filter_map(words).collect();
     let textures = window(&harness).session().textures();
     let n_named = textures.iter().filter(|texture| written.contains(&texture.id)).count();
@@ -224,6 +237,74 @@ fn dropped_tables_become_a_space_that_says_who_judged() {
         use_space(&mut harness);
         assert!(says(&harness, &format!("Positions: {from}")));
     }
+}
+
+/// Without a sorting table, the positions are the mean ratings, and every figure that needs sorts says why it is empty.
+#[test]
+fn ratings_alone_become_a_space() {
+    let mut harness = builder();
+    let [_, ratings] = tables("person ");
+    drop_files(&mut harness, &[("b.csv", &ratings)]);
+    wait(&mut harness, "they are read", |h| !window(h).build().judgments().is_reading());
+    harness.run_steps(2);
+    for name in [build::DIMENSIONS, build::PERMUTATIONS] {
+        let control = harness.get_by_role_and_label(Role::SpinButton, name);
+        assert_eq!(control.accesskit_node().is_disabled(), name == build::DIMENSIONS, "{name}");
+    }
+    set_number(&mut harness, build::PERMUTATIONS, 0.0);
+    choose(&mut harness, build::FEATURES, build::features(FeatureKind::Physical));
+    click(&mut harness, build::BUILD_SPACE);
+    wait(&mut harness, "the space is built", |h| !window(h).build().is_building());
+    harness.run_steps(2);
+    let built = window(&harness).build().built().unwrap().build.clone();
+    assert!(built.perceptual.is_none() && built.source == LabelSource::HumanRatings);
+    // The mean ratings are shown first.
+    assert!(says(&harness, "rough–smooth: mean ratings of 12 raters"), "{:?}", shown(&harness));
+    assert!(says(&harness, "Built from ratings alone") && says(&harness, "nested correlation"));
+    for (name, figure) in window(&harness).build().built().unwrap().figures.clone() {
+        show_figure(&mut harness, &name);
+        assert!(says(&harness, &figure.title()), "{name} is not shown");
+        let needs_sorts = ["stress", "perceptual-space", "shepard"].contains(&name.as_str());
+        assert_eq!(figure.title().contains("empty, because there are no sorts"), needs_sorts, "{name}");
+    }
+    use_space(&mut harness);
+    assert!(says(&harness, "Positions: human ratings"));
+    let session = window(&harness).session();
+    for (index, texture) in session.textures().iter().enumerate() {
+        let at = built.textures.iter().position(|id| *id == texture.id).map(|i| built.positions[i]);
+        assert_eq!(session.space().position(index), at);
+    }
+}
+
+/// A blank table of a questionnaire is saved, and replaces no table with answers.
+#[test]
+fn a_questionnaire_is_saved_and_replaces_no_answers() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = builder();
+    let name = questionnaires().unwrap()[0].name.clone();
+    let path = folder.path().join("ratings.csv");
+    let ask = |harness: &mut Author| {
+        click(harness, build::QUESTIONNAIRES);
+        harness.run_steps(2);
+        click(harness, &build::blank_file_of(ExperimentFile::Ratings, &name));
+        harness.run_steps(2);
+        enter_path(harness, build::BLANK_PATH, &path);
+    };
+    ask(&mut harness);
+    let saved = import::saved(&path.display().to_string());
+    wait(&mut harness, "it is saved", |h| h.query_by_label(&saved).is_some());
+    click(&mut harness, import::CLOSE);
+    let bytes = std::fs::read(&path).unwrap();
+    assert!(is_blank_ratings(&bytes));
+    let text = String::from_utf8(bytes).unwrap();
+    assert!(text.starts_with("participant,texture,rough-smooth,flat-bumpy,sticky-slippery,"), "{text}");
+    assert_eq!(text.lines().count(), 1 + 12 * 25);
+    let filled = text.replacen(",,,,,", ",41,,,,", 1);
+    std::fs::write(&path, &filled).unwrap();
+    ask(&mut harness);
+    wait(&mut harness, "it refuses", |h| says(h, build::NOT_BLANK));
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), filled);
+    click(&mut harness, import::CANCEL);
 }
 
 /// Ratings on another scale are converted; a rating outside the scale is named.
@@ -337,7 +418,7 @@ fn a_bad_table_says_why_and_nothing_is_lost() {
     assert!(window(&harness).build().built().is_none());
     click(&mut harness, &build::remove(build::RATINGS));
     harness.run_steps(2);
-    assert!(says(&harness, build::NEEDS_BOTH), "{:?}", shown(&harness));
+    assert!(says(&harness, build::NEEDS_RATINGS), "{:?}", shown(&harness));
 }
 
 #[test]

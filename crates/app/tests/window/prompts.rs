@@ -33,7 +33,7 @@ fn seed(harness: &Author) -> u64 {
     let texture = window(harness).project().texture();
     match &window(harness).prompts().guess_of(texture).expect("it was guessed").origin {
         Origin::Words { seed, .. } => *seed,
-        Origin::Photo(name) => panic!("{name} is a photo"),
+        Origin::Photo { name, .. } => panic!("{name} is a photo"),
     }
 }
 

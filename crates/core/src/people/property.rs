@@ -89,6 +89,9 @@ pub enum PropertyError {
         /// Index of the texture.
         texture: usize,
     },
+    /// There is no configuration, because nobody sorted the textures.
+    #[error("there are no sorts, so there is no perceptual space in which the adjective has a direction")]
+    NoConfiguration,
     /// All ratings are equal.
     #[error("all textures have the same rating, so the adjective has no direction")]
     ConstantRatings,

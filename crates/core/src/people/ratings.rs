@@ -10,7 +10,7 @@ mod relevance;
 mod table;
 
 pub use agreement::{Agreement, AgreementError, IntraclassCorrelation, agreement};
-pub use outliers::{OUTLIER_LIMIT, RaterFit, rater_fits};
+pub use outliers::{OUTLIER_LIMIT, REVERSED_LIMIT, RaterFit, rater_fits};
 pub use pair_name::{PairNameError, poles};
 pub use relevance::{RELEVANCE_LIMIT, Relevance, RelevanceVote, VoteError, relevances};
 pub use table::{RatingTable, RatingsError};
@@ -55,9 +55,16 @@ pub struct Average {
     pub n_raters: usize,
     /// Mean over those who rated, 0..100; `None` if there are no ratings.
     pub mean: Option<f64>,
+    /// Standard error of the mean, in points; `None` with fewer than two raters.
+    pub standard_error: Option<f64>,
     /// Half width of the 95 % confidence interval (Student's t), in points; `None` with fewer than two raters. The
     /// interval may extend below 0 or above 100.
     pub half_width: Option<f64>,
+}
+
+impl Average {
+    /// Average of a texture that nobody rated.
+    pub const NONE: Self = Self { n_raters: 0, mean: None, standard_error: None, half_width: None };
 }
 
 /// Averages on one adjective pair, one per texture.
@@ -70,9 +77,12 @@ pub fn averages(table: &RatingTable, pair: usize) -> Vec<Average> {
 
 fn average(values: &[f64]) -> Average {
     let n = values.len();
-    let half_width = (n > 1)
-        .then(|| t_quantile_two_sided(0.05, (n - 1) as f64) * standard_deviation(values) / (n as f64).sqrt());
-    Average { n_raters: n, mean: (n > 0).then(|| mean(values)), half_width }
+    if n == 0 {
+        return Average::NONE;
+    }
+    let standard_error = (n > 1).then(|| standard_deviation(values) / (n as f64).sqrt());
+    let half_width = standard_error.map(|error| t_quantile_two_sided(0.05, (n - 1) as f64) * error);
+    Average { n_raters: n, mean: Some(mean(values)), standard_error, half_width }
 }
 
 #[cfg(test)]

@@ -24,6 +24,11 @@ pub enum Fault {
     },
     /// There is no axis of acceleration.
     NoAcceleration,
+    /// Three axes of acceleration are required, but the recording has another number.
+    NotThreeAxes {
+        /// Number of axes of the recording.
+        n_axes: usize,
+    },
     /// There is no speed: no column, and no constant.
     NoSpeed,
     /// There is no force: no column, and no constant.
@@ -93,6 +98,7 @@ impl Fault {
         match self {
             Self::TooFewRows { .. } => "too few rows",
             Self::NoAcceleration => "no acceleration",
+            Self::NotThreeAxes { .. } => "not three axes",
             Self::NoSpeed => "no speed",
             Self::NoForce => "no force",
             Self::UnequalColumns { .. } => "unequal columns",
@@ -122,6 +128,12 @@ impl fmt::Display for Fault {
                 write!(f, "a recording needs at least 2 rows with different times, got {n_rows}")
             }
             Self::NoAcceleration => write!(f, "a recording needs one to three columns of acceleration"),
+            Self::NotThreeAxes { n_axes } => {
+                write!(
+                    f,
+                    "three columns of acceleration are needed, but the recording has {n_axes}; name all three in a column map, or record three axes"
+                )
+            }
             Self::NoSpeed => write!(f, "add a column of speed or positions, or give a constant speed"),
             Self::NoForce => write!(f, "add a column of normal force, or give a constant force"),
             Self::UnequalColumns { column, n_rows, of_rows } => {

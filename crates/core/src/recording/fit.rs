@@ -10,7 +10,7 @@ mod surface;
 
 pub use crate::recording::fit::error::FitError;
 pub use crate::recording::fit::pieces::{MODEL_RATES_HZ, highest_order};
-pub use crate::recording::fit::strokes::{Stroke, strokes};
+pub use crate::recording::fit::strokes::{Stroke, strokes, three_axis_strokes};
 
 use crate::dsp::spectrum::median;
 use crate::maths::triangulation::Triangulation;

@@ -22,6 +22,28 @@ use crate::units::Hertz;
 /// Share of rows with negative force above which they are reported.
 const SIGNED_SHARE: f64 = 0.01;
 
+/// Axis of acceleration that is not constant.
+struct LiveAxis {
+    /// Number of the axis in the file, from 0.
+    number: usize,
+    /// Column name for findings.
+    name: String,
+    /// Acceleration in m/s², row by row.
+    values: Vec<f64>,
+}
+
+/// Columns of a file, checked and laid out on a regular clock.
+pub(super) struct Columns {
+    axes: Vec<LiveAxis>,
+    motion: RawMotion,
+    force_n: RawTrack,
+    timeline: Timeline,
+    stretches: Vec<Stretch>,
+    /// Length of the recording in samples, gaps included.
+    n_samples: usize,
+    findings: Vec<Finding>,
+}
+
 impl Recording {
     /// Converts the rows of a file to a recording with a regular clock, and reports findings.
     ///
@@ -33,6 +55,21 @@ impl Recording {
     /// # Errors
     /// [`RecordingError`] with every fault found.
     pub fn from_raw(raw: RawRecording) -> Result<(Self, Vec<Finding>), RecordingError> {
+        let mut columns = Columns::of(raw)?;
+        let n_axes = columns.axes.len();
+        if n_axes > 1 {
+            columns.findings.push(Finding::AxesCombined { n_axes });
+        }
+        columns.into_recording()
+    }
+}
+
+impl Columns {
+    /// Checks the rows of a file, and lays them out on a regular clock.
+    ///
+    /// # Errors
+    /// [`RecordingError`] with every fault found.
+    pub(super) fn of(raw: RawRecording) -> Result<Self, RecordingError> {
         let (mut findings, mut faults) = (Vec::new(), Vec::new());
         let n_rows = raw.acceleration_mps2.first().map_or(0, Vec::len);
         check_columns(&raw, n_rows, &mut faults);
@@ -57,14 +94,16 @@ impl Recording {
         let speed_rows = rows_of_speed(&motion);
         let force_rows = column_of(&force_n);
         let names = axis_names(acceleration_mps2.len());
-        let mut axes: Vec<(String, Vec<f64>)> = names.into_iter().zip(acceleration_mps2).collect();
+        let numbered = names.into_iter().zip(acceleration_mps2).enumerate();
+        let mut axes: Vec<LiveAxis> =
+            numbered.map(|(number, (name, values))| LiveAxis { number, name, values }).collect();
         // This precedes the check for missing values: values missing in a constant axis do not matter.
-        axes.retain(|(name, values)| {
+        axes.retain(|LiveAxis { name, values, .. }| {
             let dead = dead_value(timeline.rows.iter().map(|row| values[*row]));
             findings.extend(dead.map(|value| Finding::DeadAxis { column: name.clone(), value }));
             dead.is_none()
         });
-        for (name, values) in &axes {
+        for LiveAxis { name, values, .. } in &axes {
             mark_missing(name, &ACCELERATION, &[values], &timeline, &mut usable, &mut findings);
         }
         if let Some(values) = speed_rows {
@@ -79,18 +118,17 @@ impl Recording {
         }
 
         let at_rest = |row: usize| is_rest(speed_rows.map(|v| v[row]), force_rows.map(|v| v[row]));
-        for (name, values) in &axes {
+        for LiveAxis { name, values, .. } in &axes {
             let axis = Axis { column: name, values, full_scale_mps2 };
             mark_dropouts(&axis, &timeline, at_rest, &mut usable, &mut findings, &mut faults);
         }
-        let acceleration_mps2: Vec<Vec<f64>> = axes.into_iter().map(|(_, values)| values).collect();
 
         let Some((stretches, n_samples)) = lay_out(&timeline, &usable, n_rows, &mut findings, &mut faults)
         else {
             return Err(RecordingError { faults, findings });
         };
         // Without an axis that carries a signal, no segment is usable.
-        let stretches = if acceleration_mps2.is_empty() { Vec::new() } else { stretches };
+        let stretches = if axes.is_empty() { Vec::new() } else { stretches };
         let usable_secs =
             stretches.iter().map(|stretch| stretch.samples.len()).sum::<usize>() as f64 / timeline.rate_hz;
         let is_told = faults.iter().any(Fault::leaves_nothing);
@@ -101,12 +139,34 @@ impl Recording {
         if !faults.is_empty() {
             return Err(RecordingError { faults, findings });
         }
-        if acceleration_mps2.len() > 1 {
-            findings.push(Finding::AxesCombined { n_axes: acceleration_mps2.len() });
-        }
+        Ok(Self { axes, motion, force_n, timeline, stretches, n_samples, findings })
+    }
 
+    /// Returns the three axes on the clock of the recording, in the order of the file. A constant axis is 0; samples
+    /// that are not usable are NaN.
+    pub(super) fn three_axes(&self) -> [Vec<f64>; 3] {
+        std::array::from_fn(|number| {
+            let axis = self.axes.iter().find(|axis| axis.number == number);
+            let mut samples = vec![f64::NAN; self.n_samples];
+            for stretch in &self.stretches {
+                let into = &mut samples[stretch.samples.clone()];
+                match axis {
+                    Some(axis) => into.copy_from_slice(&fast(&axis.values, &self.timeline, stretch)),
+                    None => into.fill(0.0),
+                }
+            }
+            samples
+        })
+    }
+
+    /// Combines the axes by DFT321, and returns the recording with all findings.
+    ///
+    /// # Errors
+    /// [`RecordingError`] if the recording is implausible.
+    pub(super) fn into_recording(self) -> Result<(Recording, Vec<Finding>), RecordingError> {
+        let Self { axes, motion, force_n, timeline, stretches, n_samples, mut findings } = self;
         let nothing = || vec![f64::NAN; n_samples];
-        let mut recording = Self {
+        let mut recording = Recording {
             rate: Hertz(timeline.rate_hz),
             acceleration_mps2: nothing(),
             speed_mps: nothing(),
@@ -116,7 +176,7 @@ impl Recording {
         for stretch in &stretches {
             let at = stretch.samples.clone();
             let axes: Vec<Vec<f64>> =
-                acceleration_mps2.iter().map(|values| fast(values, &timeline, stretch)).collect();
+                axes.iter().map(|axis| fast(&axis.values, &timeline, stretch)).collect();
             let axes: Vec<&[f64]> = axes.iter().map(Vec::as_slice).collect();
             // All axes are cut to the same segment, so they have the same length.
             if let Ok(combined) = dft321(&axes) {

@@ -1,7 +1,9 @@
 //! A surface generated from a prompt: its material, a tile of its height field and a seamless picture of the tile.
 //!
-//! Also combines the attributes predicted from the prompt with those predicted from the picture.
+//! Also combines the attributes predicted from the prompt with those predicted from a picture. A picture that was computed
+//! from the words adds no information, so the prediction from the words remains as it is.
 
+use crate::maths::birge::{BirgeMean, birge_mean};
 use crate::maths::gaussian_process::Estimate;
 use crate::space::SpacePoint;
 use crate::surfaces::height_field::{HeightField, Tile, synthesize};
@@ -70,31 +72,31 @@ pub struct CombinedEstimate {
 /// Threshold for a disagreement, in standard deviations of the difference: exceeded by chance in one pair of twenty.
 const DIFFER: f64 = 2.0;
 
-/// What a picture adds to the words it was generated from.
+/// What a picture adds to the words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Witness {
-    /// Nothing: the picture was computed from the meanings of the words.
+    /// Nothing: the picture was computed from the meanings of the words. If its estimate differs, the picture does not show
+    /// what the words mean.
     OfTheWords,
-    /// Independent knowledge: the picture generator has learned what such words look like.
+    /// Independent knowledge: a photo, or a picture by a generator that has learned what such words look like.
     OnItsOwn,
 }
 
-/// Returns the precision-weighted mean of two estimates and whether they differ.
+/// Returns the combination of two estimates of one attribute, from words and from a picture, and whether they differ.
 ///
-/// A picture is generated from the words, so the two estimates are not independent. A picture computed from the words
-/// does not reduce their standard deviation. A picture with independent knowledge reduces it to its own, if that is
-/// smaller. Where the estimates lie further apart than their uncertainty, the standard deviation grows by that ratio
-/// (Birge ratio, R. Birge 1932). It never exceeds that of [`OPEN`].
+/// A picture computed from the words changes neither mean nor standard deviation of the words. An independent picture is
+/// combined with them as another measurement ([`birge_mean`]): weighted by its precision, and with a larger standard
+/// deviation if the two disagree. It never exceeds that of [`OPEN`].
 pub fn agree(words: Estimate, picture: Estimate, witness: Witness) -> CombinedEstimate {
-    let weights = [words, picture].map(|estimate| estimate.deviation.max(1e-6).powi(-2));
-    let mean = (weights[0] * words.mean + weights[1] * picture.mean) / (weights[0] + weights[1]);
-    let apart = (words.mean - picture.mean).abs() / words.deviation.hypot(picture.deviation).max(1e-6);
-    let surest = match witness {
-        Witness::OfTheWords => words.deviation,
-        Witness::OnItsOwn => words.deviation.min(picture.deviation),
+    let Some(BirgeMean { estimate, ratio }) = birge_mean(&[words, picture]) else {
+        return CombinedEstimate { estimate: words, differ: false };
     };
-    let deviation = (surest * apart.max(1.0)).min(OPEN.deviation);
-    CombinedEstimate { estimate: Estimate { mean, deviation }, differ: apart > DIFFER }
+    let estimate = match witness {
+        Witness::OfTheWords => words,
+        Witness::OnItsOwn => Estimate { deviation: estimate.deviation.min(OPEN.deviation), ..estimate },
+    };
+    // The Birge ratio of two estimates is their distance in standard deviations of the difference.
+    CombinedEstimate { estimate, differ: ratio > DIFFER }
 }
 
 /// Position in the texture space predicted from words and picture.
@@ -130,6 +132,7 @@ mod tests {
     use crate::surfaces::prompt::{Looks, OPEN, PromptInterpretation};
     use crate::surfaces::prompt_material::Anchor;
     use crate::surfaces::starter::{LabelSpan, Labels};
+    use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
 
     const SPAN: LabelSpan = LabelSpan {
         low: Labels { roughness_log10_mps2: -0.7, hardness_log10_n_per_m: 3.0 },
@@ -173,25 +176,57 @@ mod tests {
         assert_eq!(generated_tile(&plain()), GENERATED_TILE);
     }
 
+    fn of(mean: f64, deviation: f64) -> Estimate {
+        Estimate { mean, deviation }
+    }
+
     #[test]
-    fn the_surer_counts_more_and_a_quarrel_makes_unsure() {
-        let of = |mean, deviation| Estimate { mean, deviation };
+    fn independent_estimates_are_weighted_and_a_disagreement_widens_them() {
         let agreed = agree(of(40.0, 10.0), of(50.0, 5.0), Witness::OnItsOwn);
         assert!((agreed.estimate.mean - 48.0).abs() < 1e-12 && !agreed.differ);
-        assert!((agreed.estimate.deviation - 5.0).abs() < 1e-12);
-        let made_of_words = agree(of(50.0, 28.9), of(70.0, 5.0), Witness::OfTheWords);
-        assert!((made_of_words.estimate.deviation - 28.9).abs() < 1e-12, "it adds no information");
-        let quarrel = agree(of(10.0, 3.0), of(60.0, 4.0), Witness::OfTheWords);
-        assert!(quarrel.differ);
-        // Ten standard deviations apart: the standard deviation reaches its upper limit.
-        assert_eq!(quarrel.estimate.deviation, OPEN.deviation);
-        // Two standard deviations apart.
-        let apart = agree(of(40.0, 3.0), of(50.0, 4.0), Witness::OfTheWords);
-        assert!((apart.estimate.deviation - 6.0).abs() < 1e-12 && !apart.differ, "{apart:?}");
+        // Surer than each of the two.
+        assert!((agreed.estimate.deviation - 20.0_f64.sqrt()).abs() < 1e-12, "{agreed:?}");
+        let apart = agree(of(40.0, 3.0), of(49.0, 4.0), Witness::OnItsOwn);
+        // 1.8 standard deviations of the difference apart: 1.8 times 3 · 4 / 5.
+        assert!((apart.estimate.deviation - 4.32).abs() < 1e-9 && !apart.differ, "{apart:?}");
+        // Ten of them: 24. Twenty: the upper limit.
+        let far = agree(of(10.0, 3.0), of(60.0, 4.0), Witness::OnItsOwn);
+        assert!((far.estimate.deviation - 24.0).abs() < 1e-9 && far.differ, "{far:?}");
+        let farther = agree(of(0.0, 3.0), of(100.0, 4.0), Witness::OnItsOwn);
+        assert_eq!(farther.estimate.deviation, OPEN.deviation);
+        assert_eq!(agree(of(20.0, 0.0), of(20.0, 0.0), Witness::OnItsOwn).estimate.mean, 20.0);
         let placed =
             place([of(10.0, 3.0), of(80.0, 10.0)], [of(60.0, 4.0), of(90.0, 10.0)], Witness::OnItsOwn);
         assert_eq!(placed.disputed(), ["rough-smooth"]);
         assert!((placed.at.hard_soft - 85.0).abs() < 1e-9);
-        assert_eq!(agree(of(20.0, 0.0), of(20.0, 0.0), Witness::OnItsOwn).estimate.mean, 20.0);
+    }
+
+    /// "Velvet" was understood as 84 and 87, and the picture of it moved that to 50 and 65.
+    #[test]
+    fn a_picture_made_from_the_words_does_not_overrule_them() {
+        let words = [of(84.0, 9.0), of(87.0, 7.0)];
+        let placed = place(words, [of(20.0, 4.0), of(40.0, 4.0)], Witness::OfTheWords);
+        assert_eq!(placed.axes.map(|axis| axis.estimate), words);
+        assert_eq!((placed.at.rough_smooth, placed.at.hard_soft), (84.0, 87.0));
+        // It is still said that the picture looks different.
+        assert_eq!(placed.disputed(), ["rough-smooth", "hard-soft"]);
+        let open = agree(OPEN, of(70.0, 5.0), Witness::OfTheWords);
+        assert_eq!((open.estimate, open.differ), (OPEN, false));
+    }
+
+    proptest! {
+        #[test]
+        fn words_stay_as_they_are_beside_any_picture_of_them(
+            (mean, deviation) in (0.0..=100.0_f64, 0.0..40.0_f64),
+            (seen, seen_deviation) in (-50.0..=150.0_f64, 0.0..80.0_f64),
+        ) {
+            let (words, picture) = (of(mean, deviation), of(seen, seen_deviation));
+            prop_assert_eq!(agree(words, picture, Witness::OfTheWords).estimate, words);
+            let both = agree(words, picture, Witness::OnItsOwn);
+            prop_assert_eq!(both.differ, agree(picture, words, Witness::OnItsOwn).differ);
+            let (low, high) = (mean.min(seen), mean.max(seen));
+            prop_assert!((low - 1e-9..=high + 1e-9).contains(&both.estimate.mean), "{both:?}");
+            prop_assert!(both.estimate.deviation <= OPEN.deviation);
+        }
     }
 }

@@ -4,14 +4,18 @@
 //! Each picture is first cropped to its central square and resampled to [`SIDE`] pixels.
 
 mod co_occurrence;
+mod resampling;
 mod spectrum;
 mod wavelets;
 
 use crate::maths::statistics::{mean, standard_deviation};
 use crate::surfaces::picture_features::co_occurrence::{N_OF_DISTANCE, co_occurrence};
+use crate::surfaces::picture_features::resampling::by_area;
 use crate::surfaces::picture_features::spectrum::{N_OF_SPECTRUM, spectral};
 use crate::surfaces::picture_features::wavelets::{N_LEVELS, haar_energies};
 use crate::surfaces::shading::Picture;
+
+pub(crate) use crate::surfaces::picture_features::resampling::{Patch, central_patch, resampled};
 
 /// Side of the resampled square in pixels, a usual input size of image networks.
 pub const SIDE: usize = 224;
@@ -63,44 +67,34 @@ pub struct Square {
 /// # Errors
 /// [`PictureError::TooSmall`] below 16 × 16 pixels, [`PictureError::Bytes`] unless there are three bytes per pixel.
 pub fn square(picture: &Picture) -> Result<Square, PictureError> {
-    let Picture { width, height, ref rgb, .. } = *picture;
-    let side = width.min(height);
-    if side < 16 {
-        return Err(PictureError::TooSmall { width, height });
-    }
-    if rgb.len() != 3 * width * height {
-        return Err(PictureError::Bytes { n: rgb.len(), expected: 3 * width * height });
-    }
-    let (left, top) = ((width - side) / 2, (height - side) / 2);
-    let covers: Vec<Vec<(usize, f32)>> = (0..SIDE).map(|pixel| cover(pixel, side)).collect();
-    // Rows first, then columns.
-    let mut rows = vec![0.0_f32; side * SIDE * 3];
-    for y in 0..side {
-        for (x, cover) in covers.iter().enumerate() {
-            for channel in 0..3 {
-                let at = |from: usize| f32::from(rgb[3 * ((top + y) * width + left + from) + channel]);
-                rows[3 * (y * SIDE + x) + channel] =
-                    cover.iter().map(|(from, share)| share * at(*from)).sum();
-            }
-        }
-    }
-    let mut square = vec![0.0; 3 * SIDE * SIDE];
-    for (y, cover) in covers.iter().enumerate() {
-        for x in 0..3 * SIDE {
-            let sum: f32 = cover.iter().map(|(from, share)| share * rows[3 * SIDE * from + x]).sum();
-            square[3 * SIDE * y + x] = sum / 255.0;
-        }
-    }
-    Ok(Square { rgb: square })
+    let center = central_patch(picture)?;
+    Ok(by_area(picture, center))
 }
 
-/// Source pixels of `side` that one of [`SIDE`] output pixels covers, each with its area fraction.
-fn cover(pixel: usize, side: usize) -> Vec<(usize, f32)> {
-    let scale = side as f64 / SIDE as f64;
-    let (begin, end) = (pixel as f64 * scale, (pixel + 1) as f64 * scale);
-    let parts = begin.floor() as usize..(end.ceil() as usize).min(side);
-    let share = |from: usize| (end.min(from as f64 + 1.0) - begin.max(from as f64)) / scale;
-    parts.map(|from| (from, share(from) as f32)).filter(|(_, share)| *share > 0.0).collect()
+/// Number of views that [`views`] returns.
+pub const N_VIEWS: usize = 5;
+
+/// Returns the whole central square of a picture, then its upper left, upper right, lower left and lower right quarter.
+///
+/// A view with fewer than [`SIDE`] pixels per side is interpolated linearly; others are averaged by area. From [`SIDE`]
+/// pixels on, the first view is therefore that of [`square`].
+///
+/// # Errors
+/// As [`square`].
+pub fn views(picture: &Picture) -> Result<[Square; N_VIEWS], PictureError> {
+    let whole = central_patch(picture)?;
+    let half = whole.side / 2;
+    let rest = whole.side - half;
+    let quarter = |x: usize, y: usize| Patch { left: whole.left + x, top: whole.top + y, side: half };
+    let patches = [whole, quarter(0, 0), quarter(rest, 0), quarter(0, rest), quarter(rest, rest)];
+    Ok(patches.map(|patch| resampled(picture, patch)))
+}
+
+/// Returns the energy of the details of each size, finest first: 2, 4, … 32 pixels. Their sum is four times the part of
+/// the variance of luma that these details make up.
+pub(crate) fn detail_energies(square: &Square) -> Vec<f64> {
+    let gray: Vec<f64> = square.rgb.chunks_exact(3).map(brightness).collect();
+    haar_energies(&gray, SIDE).iter().map(|energies| energies.iter().sum()).collect()
 }
 
 /// Returns the texture features of a picture, [`N_FEATURES`] numbers in this order:

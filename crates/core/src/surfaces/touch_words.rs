@@ -3,7 +3,7 @@
 //! Each word gives estimates on five attributes of 0 to 100, on the scale of the starter library. The estimates are not
 //! human ratings. [`crate::surfaces::prompt`] combines the words of a whole prompt.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::maths::gaussian_process::Estimate;
 use crate::surfaces::material::PatternKind;
@@ -83,6 +83,10 @@ pub struct Shade {
 pub struct Lexicon {
     meanings: Vec<(String, Meaning)>,
     words: BTreeMap<String, usize>,
+    /// Words of pictures and of light.
+    depictions: BTreeSet<String>,
+    /// Words of surfaces, by the class of materials that they stand for.
+    classes: BTreeMap<String, String>,
 }
 
 /// Reasons why entries do not form a lexicon.
@@ -101,9 +105,23 @@ pub enum LexiconError {
         /// Given word.
         word: String,
     },
+    /// A word of pictures or of light is not a single word.
+    #[error("\"{word}\" must be a single lower-case word of letters and digits")]
+    NoWord {
+        /// Given text.
+        word: String,
+    },
     /// An entry has no words.
     #[error("an entry has no words; add at least one")]
     NoWords,
+    /// A class of materials stands for something that is not a surface.
+    #[error("the class \"{class}\" stands for \"{word}\", which is not a word of a surface; give one")]
+    NoSurface {
+        /// Name of the class.
+        class: String,
+        /// Word given for it.
+        word: String,
+    },
 }
 
 impl Lexicon {
@@ -118,9 +136,6 @@ impl Lexicon {
             let name = words.first().ok_or(LexiconError::NoWords)?.clone();
             lexicon.meanings.push((name, meaning));
             for word in words {
-                let is_word = |part: &str| {
-                    !part.is_empty() && part.chars().all(|c| c.is_alphanumeric() && !c.is_uppercase())
-                };
                 let parts: Vec<&str> = word.split(' ').collect();
                 if parts.len() > LONGEST_PHRASE || !parts.into_iter().all(is_word) {
                     return Err(LexiconError::NoPhrase { word });
@@ -132,6 +147,49 @@ impl Lexicon {
             }
         }
         Ok(lexicon)
+    }
+
+    /// Returns the lexicon with these words of pictures and of light, such as "sketch". An adjective before one of them does
+    /// not describe a surface. They may have another meaning, too.
+    ///
+    /// # Errors
+    /// [`LexiconError::NoWord`] at the first one that is not a single word.
+    pub fn with_depictions(self, words: Vec<String>) -> Result<Self, LexiconError> {
+        match words.iter().find(|word| !is_word(word)) {
+            Some(word) => Err(LexiconError::NoWord { word: word.clone() }),
+            None => Ok(Self { depictions: words.into_iter().collect(), ..self }),
+        }
+    }
+
+    /// Returns the lexicon with these classes of materials and the words of the surfaces that stand for them. A class whose
+    /// name is the word of a surface needs none.
+    ///
+    /// # Errors
+    /// [`LexiconError::NoSurface`] at the first class whose word is not that of a surface.
+    pub fn with_classes(self, classes: BTreeMap<String, String>) -> Result<Self, LexiconError> {
+        match classes.iter().find(|(_, word)| self.surface(word).is_none()) {
+            Some((class, word)) => Err(LexiconError::NoSurface { class: class.clone(), word: word.clone() }),
+            None => Ok(Self { classes, ..self }),
+        }
+    }
+
+    /// Returns whether a word, as written, is one of pictures or of light.
+    pub fn is_depiction(&self, word: &str) -> bool {
+        self.depictions.contains(word)
+    }
+
+    /// Returns the name of the entry that stands for a class of materials, and its estimates; `None` if there is none.
+    /// Hyphens and underscores in the name of the class count as spaces.
+    pub fn material(&self, class: &str) -> Option<(&str, &Hints)> {
+        let class = class.to_lowercase().replace(['-', '_'], " ");
+        self.surface(self.classes.get(&class).map_or(class.as_str(), String::as_str))
+    }
+
+    fn surface(&self, word: &str) -> Option<(&str, &Hints)> {
+        match self.get(word)? {
+            (name, Meaning::Surface { hints, .. }) => Some((name, hints)),
+            _ => None,
+        }
     }
 
     /// Returns the name and meaning of a word or phrase as written.
@@ -147,7 +205,8 @@ impl Lexicon {
 
     /// Returns the single known word that this one is a misspelling of.
     ///
-    /// The edit distance is at most one, or two from eight letters on. `None` if several meanings are equally near.
+    /// The edit distance is at most one, or two from eight letters on. A replaced letter counts as two, because it often makes
+    /// another ordinary word ("store" and "stone"). `None` if several meanings are equally near.
     pub fn misspelled(&self, word: &str) -> Option<&str> {
         const SHORTEST: usize = 5;
         const LONG: usize = 8;
@@ -174,8 +233,13 @@ impl Lexicon {
     }
 }
 
-/// Returns the edit distance (insertion, deletion, transposition, replacement; F. Damerau 1964), or any number above
-/// `limit`.
+/// Returns whether a text is one lower-case word of letters and digits.
+fn is_word(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| c.is_alphanumeric() && !c.is_uppercase())
+}
+
+/// Returns the edit distance (F. Damerau 1964), or any number above `limit`: insertions, deletions and transpositions count as
+/// one, replacements as two.
 fn distance(letters: &[char], known: &str, limit: usize) -> usize {
     let known: Vec<char> = known.chars().collect();
     if letters.len().abs_diff(known.len()) > limit {
@@ -190,7 +254,7 @@ fn distance(letters: &[char], known: &str, limit: usize) -> usize {
     }
     for i in 1..=letters.len() {
         for j in 1..=known.len() {
-            let replaced = rows[i - 1][j - 1] + usize::from(letters[i - 1] != known[j - 1]);
+            let replaced = rows[i - 1][j - 1] + 2 * usize::from(letters[i - 1] != known[j - 1]);
             let mut least = replaced.min(rows[i - 1][j] + 1).min(rows[i][j - 1] + 1);
             if i > 1 && j > 1 && letters[i - 1] == known[j - 2] && letters[i - 2] == known[j - 1] {
                 least = least.min(rows[i - 2][j - 2] + 1);
@@ -204,6 +268,7 @@ fn distance(letters: &[char], known: &str, limit: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::{Lexicon, LexiconError, Meaning, distance};
+    use crate::maths::gaussian_process::Estimate;
 
     fn lexicon(entries: &[(&[&str], Meaning)]) -> Result<Lexicon, LexiconError> {
         let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
@@ -233,6 +298,46 @@ mod tests {
     }
 
     #[test]
+    fn classes_of_materials_lead_to_surfaces() {
+        let hints = [Some(Estimate { mean: 30.0, deviation: 9.0 }); 5];
+        let surface =
+            Meaning::Surface { like: "loop-carpet".to_owned(), hints, color_srgb: None, gloss: None };
+        let lexicon = lexicon(&[
+            (&["carpet", "rug"], surface.clone()),
+            (&["wood chip"], surface),
+            (&["plush"], Meaning::Filler),
+        ])
+        .unwrap();
+        let classes = |pairs: &[(&str, &str)]| {
+            pairs.iter().map(|(class, word)| ((*class).to_owned(), (*word).to_owned())).collect()
+        };
+        let lexicon =
+            lexicon.with_classes(classes(&[("plush", "rug"), ("wood chips", "wood chip")])).unwrap();
+        for (class, name) in [
+            ("carpet", Some("carpet")),
+            ("rug", Some("carpet")),
+            ("plush", Some("carpet")),
+            ("Wood-chips", Some("wood chip")),
+            ("wood_chip", Some("wood chip")),
+            ("lava", None),
+        ] {
+            assert_eq!(lexicon.material(class).map(|(name, _)| name), name, "{class}");
+        }
+        assert_eq!(lexicon.material("plush").unwrap().1, &hints);
+        let error = lexicon.with_classes(classes(&[("wool", "plush")])).unwrap_err();
+        assert!(error.to_string().contains("\"wool\" stands for \"plush\""), "{error}");
+    }
+
+    #[test]
+    fn words_of_pictures_are_single_words() {
+        let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
+        let lexicon = Lexicon::default().with_depictions(words(&["light", "sketch"])).unwrap();
+        assert!(lexicon.is_depiction("light") && !lexicon.is_depiction("wood"));
+        let error = lexicon.with_depictions(words(&["light", "close up"])).unwrap_err();
+        assert_eq!(error, LexiconError::NoWord { word: "close up".to_owned() });
+    }
+
+    #[test]
     fn a_letter_amiss_is_forgiven_where_only_one_word_is_meant() {
         let words: [(&[&str], Meaning); 4] = [
             (&["carpet"], Meaning::Filler),
@@ -245,11 +350,10 @@ mod tests {
             ("carpt", Some("carpet")),
             ("carpett", Some("carpet")),
             ("capret", Some("carpet")),
-            ("karpet", Some("carpet")),
-            ("karpett", None),
+            ("karpet", None),
             ("corugatd", Some("corrugated")),
             ("bilky", None),
-            ("silkye", Some("silkie")),
+            ("silkye", Some("silky")),
             ("carp", None),
         ] {
             assert_eq!(lexicon.misspelled(wrong), right, "{wrong}");
@@ -261,7 +365,7 @@ mod tests {
         let of = |a: &str, b: &str| distance(&a.chars().collect::<Vec<_>>(), b, 3);
         assert_eq!(
             [of("ab", "ab"), of("ab", "ba"), of("ab", "abc"), of("abc", "xbc"), of("abcd", "xy")],
-            [0, 1, 1, 1, 4]
+            [0, 1, 1, 2, 6]
         );
         assert_eq!(of("a", "abcdefgh"), 4, "above the limit");
     }

@@ -2,10 +2,13 @@
 
 use image::ImageError;
 
-use super::MAX_PHOTO_SIDE;
+use super::SAFE_PHOTO_SIDE;
 #[cfg(doc)]
-use super::MAX_SIDE;
+use super::{MAX_PHOTO_SIDE, MAX_SIDE};
 use crate::foreign_file::Found;
+
+/// Words for a variant of a format that is not read and has no name of its own here.
+pub(super) const VARIANT: &str = "a rare variant of its format";
 
 /// Why a picture cannot be encoded or decoded.
 #[derive(Debug, thiserror::Error)]
@@ -57,15 +60,26 @@ pub enum PictureError {
         /// Number of rows.
         rows: u32,
     },
-    /// The bytes are neither JPEG nor PNG.
+    /// The bytes are in no format of photos that is read.
     #[error("{}", .found.instead_of_photo())]
     NoPhoto {
         /// Content of the file.
         found: Found,
     },
+    /// A photo whose format is read, but not this variant of it.
+    #[error("the photo uses {what}, which cannot be read; save it as PNG, in gray or RGB")]
+    Unsupported {
+        /// What the file uses.
+        what: &'static str,
+    },
+    /// A picture of heights with places that were not measured.
+    #[error(
+        "the picture has numbers that are no measurements (NaN, infinite, or beyond 1e30); fill these gaps, and save it again"
+    )]
+    Gaps,
     /// A photo with a side above [`MAX_PHOTO_SIDE`] pixels, or above 1 GiB when decoded.
     #[error(
-        "the photo is too large; scale it to at most {MAX_PHOTO_SIDE} pixels per side, with 8 bits per color channel"
+        "the photo is too large; scale it to at most {SAFE_PHOTO_SIDE} pixels per side, with 8 bits per color channel"
     )]
     LargePhoto,
     /// A photo that ends before its last row.

@@ -1,8 +1,10 @@
-//! Tables of judgments and positions: small valid files, and properties of the results from mutated ones.
+//! Tables of judgments, positions, recordings and photos: small valid files, and properties of the results from mutated ones.
 
 use shagreen_core::space::LabelSource;
+use shagreen_formats::photo_table::read_photo_table;
 use shagreen_formats::places_csv::{Scale, read_places};
 use shagreen_formats::ratings_csv::{ratings_csv, read_ratings_csv, read_relevance_csv};
+use shagreen_formats::recordings_csv::read_recordings_csv;
 use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 
 pub(crate) fn sorting_seeds() -> Vec<Vec<u8>> {
@@ -26,6 +28,19 @@ pub(crate) fn places_seeds() -> Vec<Vec<u8>> {
     let by_poles = "texture;Rough-Smooth;Hard-Soft\ncork;40,5;71\n";
     let stray = "sep=|\nid|rs|hs|color|flat-bumpy\ncork|1|7|red|4\n";
     [plain, by_poles, stray].map(|text| text.as_bytes().to_vec()).to_vec()
+}
+
+pub(crate) fn recordings_seeds() -> Vec<Vec<u8>> {
+    let plain = "texture,recording\ncork,cork-1.csv\ncork,cork-2.csv\n";
+    let quoted = "texture id;file;note\ncork;\"a;b.wav\";slow\n";
+    [plain, quoted].map(|text| text.as_bytes().to_vec()).to_vec()
+}
+
+pub(crate) fn photo_table_seeds() -> Vec<Vec<u8>> {
+    let plain = "file,class,softness,softness_sd,source,license\na.jpg,brick,9,7,mine,CC0\n";
+    let other =
+        "file;cls;repo;licence;author;softness;softness_sd;note\nb/c.png;felt;x;MIT;A;70,5;9;by eye\n";
+    [plain, other].map(|text| text.as_bytes().to_vec()).to_vec()
 }
 
 /// Small tables that request much memory or time: many columns, many lines, many names.
@@ -79,4 +94,21 @@ pub(crate) fn read_some_places(bytes: &[u8]) -> Result<(), String> {
             && p.attributes.values.iter().all(|a| is_inside(a.value)))
     });
     outside.map_or(Ok(()), |placement| Err(format!("{placement:?}")))
+}
+
+pub(crate) fn read_some_recordings(bytes: &[u8]) -> Result<(), String> {
+    let recordings = read_recordings_csv(bytes).unwrap_or_default();
+    let empty = recordings.iter().find(|of| of.texture.is_empty() || of.recording.is_empty());
+    empty.map_or(Ok(()), |recording| Err(format!("{recording:?}")))
+}
+
+/// All indices and numbers of a table are possible.
+pub(crate) fn read_some_photos(bytes: &[u8]) -> Result<(), String> {
+    let Ok(table) = read_photo_table(bytes) else { return Ok(()) };
+    let is_label = |softness: f64, sd: f64| (0.0..=100.0).contains(&softness) && sd > 0.0 && sd <= 50.0;
+    let is_sound = table.classes.iter().all(|class| is_label(class.softness, class.softness_sd))
+        && table.photos.iter().all(|photo| {
+            photo.class < table.classes.len() && photo.source < table.sources.len() && !photo.file.is_empty()
+        });
+    if is_sound { Ok(()) } else { Err(format!("{table:?}")) }
 }

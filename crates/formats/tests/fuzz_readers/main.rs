@@ -16,6 +16,7 @@ mod documents;
 mod judgments;
 mod memory;
 mod mutate;
+mod photos;
 mod readers;
 mod recordings;
 mod signals;

@@ -14,10 +14,11 @@ use crate::documents::{
     read_a_project, read_an_actuator, read_some_settings, settings_seeds,
 };
 use crate::judgments::{
-    places_seeds, ratings_seeds, read_a_sorting, read_some_places, read_some_ratings, sorting_seeds,
-    table_bombs as judgment_bombs,
+    photo_table_seeds, places_seeds, ratings_seeds, read_a_sorting, read_some_photos, read_some_places,
+    read_some_ratings, read_some_recordings, recordings_seeds, sorting_seeds, table_bombs as judgment_bombs,
 };
 use crate::mutate::repair_png;
+use crate::photos::{photo_bombs, photo_seeds, read_a_photo};
 use crate::recordings::{
     map_seeds, read_a_map, read_a_table, read_a_wav, read_a_wav_sidecar, sidecar_seeds as wav_sidecar_seeds,
     table_bombs, table_seeds, wav_bombs, wav_seeds,
@@ -86,6 +87,7 @@ pub(crate) const READERS: &[Reader] = &[
     },
     Reader { name: "jpeg", seeds: jpeg_seeds, repair: None, bombs: jpeg_bombs, read: read_a_jpeg },
     Reader { name: "png", seeds: png_seeds, repair: Some(repair_png), bombs: png_bombs, read: read_a_png },
+    Reader { name: "photo", seeds: photo_seeds, repair: None, bombs: photo_bombs, read: read_a_photo },
     Reader {
         name: "recording_table",
         seeds: table_seeds,
@@ -113,6 +115,20 @@ pub(crate) const READERS: &[Reader] = &[
         repair: None,
         bombs: judgment_bombs,
         read: read_some_places,
+    },
+    Reader {
+        name: "photo_table",
+        seeds: photo_table_seeds,
+        repair: None,
+        bombs: judgment_bombs,
+        read: read_some_photos,
+    },
+    Reader {
+        name: "recordings",
+        seeds: recordings_seeds,
+        repair: None,
+        bombs: judgment_bombs,
+        read: read_some_recordings,
     },
     Reader { name: "recording_wav", seeds: wav_seeds, repair: None, bombs: wav_bombs, read: read_a_wav },
     Reader {

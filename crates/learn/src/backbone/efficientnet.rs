@@ -1,20 +1,27 @@
-//! EfficientNet-Lite0 up to its eleventh block, with frozen weights.
+//! EfficientNet-Lite0 up to its last block, with frozen weights.
 //!
 //! From M. Tan and Q. Le 2019, in the variant for small devices: no squeeze-and-excitation, no swish, unscaled stem and
 //! head.
 //!
-//! Later blocks recognize objects and earlier ones textures. The blocks in between, at several scales, show most about
-//! a material. A feature map is stored as rows of pixels with interleaved channels, so that most work is matrix
-//! multiplication.
+//! Blocks in the middle, at several scales, show most about the relief of a rendered material ([early
+//! features](Depth::Early)). The last block recognizes what real photos show ([late features](Depth::Late)). A feature map
+//! is stored as rows of pixels with interleaved channels, so that most work is matrix multiplication.
 
 use ndarray::{Array1, Array2};
 use shagreen_core::surfaces::picture_features::{SIDE, Square};
 
-use super::{BackboneError, Numbers};
+use super::{BackboneError, Depth, Numbers};
 
 /// Per stage: kernel, stride of the first block, expansion factor, channels, number of blocks.
-const STAGES: [(usize, usize, usize, usize, usize); 5] =
-    [(3, 1, 1, 16, 1), (3, 2, 6, 24, 2), (5, 2, 6, 40, 2), (3, 2, 6, 80, 3), (5, 1, 6, 112, 3)];
+const STAGES: [(usize, usize, usize, usize, usize); 7] = [
+    (3, 1, 1, 16, 1),
+    (3, 2, 6, 24, 2),
+    (5, 2, 6, 40, 2),
+    (3, 2, 6, 80, 3),
+    (5, 1, 6, 112, 3),
+    (5, 2, 6, 192, 4),
+    (3, 1, 6, 320, 1),
+];
 /// Channels of the stem.
 const N_STEM: usize = 32;
 /// Epsilon added to variances in batch normalization.
@@ -22,11 +29,15 @@ const EPSILON: f32 = 1e-3;
 /// Upper limit of ReLU6.
 const SIX: f32 = 6.0;
 
-/// Stages that give features, each after its last block; the first stage shows only colors and edges.
-const LOOKED_AT: std::ops::Range<usize> = 1..STAGES.len();
+/// Stages that give early features, each after its last block; the first stage shows only colors and edges.
+const EARLY: std::ops::Range<usize> = 1..5;
+/// Stage that gives late features: the last one.
+const LATE: usize = STAGES.len() - 1;
 
-/// Number of features: mean and standard deviation of each channel of those stages.
-pub(super) const N_FEATURES: usize = 2 * (STAGES[1].3 + STAGES[2].3 + STAGES[3].3 + STAGES[4].3);
+/// Number of early features: mean and standard deviation of each channel of those stages.
+pub(super) const N_EARLY: usize = 2 * (STAGES[1].3 + STAGES[2].3 + STAGES[3].3 + STAGES[4].3);
+/// Number of late features: mean and standard deviation of each channel of the last stage.
+pub(super) const N_LATE: usize = 2 * STAGES[LATE].3;
 
 /// The network.
 #[derive(Clone, Debug)]
@@ -96,20 +107,25 @@ impl EfficientNet {
         Ok(Self { stem, blocks })
     }
 
-    /// Returns for each feature stage the channel means, then the channel standard deviations.
-    pub(super) fn features(&self, square: &Square) -> Vec<f32> {
+    /// Returns the features of a depth: for each of its stages the channel means, then the channel standard deviations.
+    pub(super) fn features(&self, square: &Square, depth: Depth) -> [Vec<f32>; 2] {
+        let (has_early, has_late) = (depth != Depth::Late, depth != Depth::Early);
+        let n_stages = if has_late { STAGES.len() } else { EARLY.end };
         let mut map = self.stem(square);
-        let mut features = Vec::with_capacity(N_FEATURES);
+        let (mut early, mut late) = (Vec::new(), Vec::new());
         let mut blocks = self.blocks.iter();
-        for (stage, (_, _, _, _, n_blocks)) in STAGES.into_iter().enumerate() {
+        for (stage, (_, _, _, _, n_blocks)) in STAGES.into_iter().enumerate().take(n_stages) {
             for block in blocks.by_ref().take(n_blocks) {
                 map = block.run(&map);
             }
-            if LOOKED_AT.contains(&stage) {
-                features.extend(map.means_and_deviations());
+            if has_early && EARLY.contains(&stage) {
+                early.extend(map.means_and_deviations());
+            }
+            if stage == LATE {
+                late = map.means_and_deviations();
             }
         }
-        features
+        [early, late]
     }
 
     /// Returns the stem convolution of the picture, with pixels normalized as in training: (x - 127) / 128.

@@ -1,5 +1,5 @@
-use super::efficientnet::{EfficientNet, N_FEATURES};
-use super::{Backbone, BackboneError, Numbers};
+use super::efficientnet::{EfficientNet, N_EARLY, N_LATE};
+use super::{Backbone, BackboneError, Depth, Numbers};
 use crate::init::Uniform;
 use safetensors::tensor::{Dtype, TensorView};
 use shagreen_core::surfaces::picture_features::{SIDE, Square};
@@ -23,7 +23,7 @@ fn made_up() -> Numbers {
     let mut n_inputs = 32;
     let blocks =
         [(3, 1, 16), (3, 6, 24), (3, 6, 24), (5, 6, 40), (5, 6, 40), (3, 6, 80), (3, 6, 80), (3, 6, 80)];
-    let blocks = blocks.into_iter().chain([(5, 6, 112), (5, 6, 112), (5, 6, 112)]);
+    let blocks = blocks.into_iter().chain([(5, 6, 112); 3]).chain([(5, 6, 192); 4]).chain([(3, 6, 320)]);
     for (index, (kernel, factor, n_outputs)) in blocks.enumerate() {
         let name = |part: &str| format!("_blocks.{index}.{part}");
         let n_wide = factor * n_inputs;
@@ -136,9 +136,12 @@ fn the_network_is_its_definition() {
     let numbers = made_up();
     let network = EfficientNet::new(&numbers).unwrap();
     let square = square(3);
-    let got = network.features(&square);
-    assert_eq!(got.len(), N_FEATURES);
-    let mut got = got.into_iter();
+    let [early, late] = network.features(&square, Depth::Both);
+    assert_eq!((early.len(), late.len()), (N_EARLY, N_LATE));
+    assert_eq!(network.features(&square, Depth::Early), [early.clone(), Vec::new()]);
+    assert_eq!(network.features(&square, Depth::Late), [Vec::new(), late.clone()]);
+    // In the order of the blocks.
+    let mut got = early.into_iter().chain(late);
     let mut map = slow::Map {
         n: 3,
         side: SIDE,
@@ -149,7 +152,7 @@ fn the_network_is_its_definition() {
             .collect(),
     };
     map = slow::conv(&map, &numbers, "_conv_stem.weight", 2, "_bn0", true);
-    let strides = [1, 2, 1, 2, 1, 2, 1, 1, 1, 1, 1];
+    let strides = [1, 2, 1, 2, 1, 2, 1, 1, 1, 1, 1, 2, 1, 1, 1, 1];
     for (index, stride) in strides.into_iter().enumerate() {
         let name = |part: &str| format!("_blocks.{index}.{part}");
         let wide = if index == 0 {
@@ -163,13 +166,13 @@ fn the_network_is_its_definition() {
             next.values.iter_mut().zip(&map.values).for_each(|(y, x)| *y += x);
         }
         map = next;
-        if [2, 4, 7, 10].contains(&index) {
+        if [2, 4, 7, 10, 15].contains(&index) {
             let (means, deviations) = moments(&map);
             let expected: Vec<f64> = means.into_iter().chain(deviations).collect();
             let got: Vec<f32> = got.by_ref().take(expected.len()).collect();
             assert_eq!(got.len(), expected.len());
             for (got, expected) in got.into_iter().zip(expected) {
-                // Single precision through eleven blocks.
+                // Single precision through up to sixteen blocks.
                 assert!(
                     (f64::from(got) - expected).abs() < 1e-3 * (1.0 + expected.abs()),
                     "{got} {expected}"
@@ -198,7 +201,11 @@ fn a_file_is_told_by_its_names_and_checked() {
     let backbone = Backbone::from_bytes(&bytes).unwrap();
     assert_eq!((backbone.kind().name(), backbone.sha256().len()), ("EfficientNet-Lite0", 64));
     let square = square(1);
-    assert_eq!(backbone.features(&square).unwrap(), EfficientNet::new(&numbers).unwrap().features(&square));
+    let [early, late] = EfficientNet::new(&numbers).unwrap().features(&square, Depth::Both);
+    assert_eq!((early.len(), late.len()), (backbone.kind().n_features(), backbone.kind().n_late_features()));
+    assert_eq!(backbone.features(&square).unwrap(), early);
+    assert_eq!(backbone.late_features(&square).unwrap(), late);
+    assert_eq!(backbone.early_and_late_features(&square).unwrap(), [early, late]);
 
     let failure = |change: &dyn Fn(&mut Numbers)| {
         let mut numbers = made_up();

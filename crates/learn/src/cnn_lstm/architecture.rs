@@ -15,16 +15,18 @@ pub enum Padding {
     Valid,
 }
 
-/// Streams of the network; the paper also evaluates each stream alone.
+/// Streams of the network, and their arrangement. The last three are the rivals of the paper's Table 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Streams {
-    /// Both streams.
+    /// Both streams read the segment; their features are concatenated.
     Both,
-    /// Convolutional stream only.
+    /// Convolutional stream only (1D-CNN).
     Convolutions,
     /// LSTM stream only.
     Memory,
+    /// The LSTM stream reads the sequence that the convolutional stream returns (serial CNN-LSTM).
+    Series,
 }
 
 impl Streams {
@@ -37,6 +39,9 @@ impl Streams {
     }
 }
 
+/// Channels of a segment beside acceleration: speed and force.
+const N_CONTACT_CHANNELS: usize = 2;
+
 /// Sizes of the network.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -45,7 +50,7 @@ pub struct Architecture {
     pub streams: Streams,
     /// Samples per segment.
     pub n_samples: usize,
-    /// Channels per sample.
+    /// Channels per sample: one or three axes of acceleration, speed and force.
     pub n_channels: usize,
     /// Padding of the convolutions.
     pub padding: Padding,
@@ -82,6 +87,23 @@ impl Architecture {
         Self { padding: Padding::Valid, pools: [2, 2], ..Self::paper320(n_outputs) }
     }
 
+    /// Returns the serial CNN-LSTM: convolutions and pooling of the paper's text, whose 44 outputs of 32 filters the
+    /// LSTM layers read. The paper states no sizes of its rivals, so the layers are those of its own network.
+    pub fn serial(n_outputs: usize) -> Self {
+        Self { streams: Streams::Series, ..Self::literal(n_outputs) }
+    }
+
+    /// Returns this network for the three axes of acceleration instead of one combined signal.
+    #[must_use]
+    pub fn with_three_axes(self) -> Self {
+        Self { n_channels: 3 + N_CONTACT_CHANNELS, ..self }
+    }
+
+    /// Returns the number of acceleration channels: 1 for the combined signal, or 3.
+    pub fn n_axes(&self) -> usize {
+        self.n_channels.saturating_sub(N_CONTACT_CHANNELS)
+    }
+
     /// Returns the number of convolutional features; 0 if a segment is too short.
     pub fn n_convolved(&self) -> usize {
         let mut n_samples = self.n_samples;
@@ -98,10 +120,18 @@ impl Architecture {
         n_samples * self.filters[5]
     }
 
-    /// Returns the number of concatenated features of both streams.
+    /// Returns the number of features before the dense layers.
     pub fn n_features(&self) -> usize {
-        let convolved = if self.streams.has_convolutions() { self.n_convolved() } else { 0 };
-        convolved + if self.streams.has_memory() { self.units[3] } else { 0 }
+        match self.streams {
+            Streams::Both => self.n_convolved() + self.units[3],
+            Streams::Convolutions => self.n_convolved(),
+            Streams::Memory | Streams::Series => self.units[3],
+        }
+    }
+
+    /// Returns the number of inputs of the first LSTM layer at each step.
+    pub(super) fn n_memory_inputs(&self) -> usize {
+        if self.streams == Streams::Series { self.filters[5] } else { self.n_channels }
     }
 
     /// Returns the number of trainable parameters, and that number plus the running means and variances.
@@ -116,7 +146,7 @@ impl Architecture {
             }
         }
         if self.streams.has_memory() {
-            let mut n_inputs = self.n_channels;
+            let mut n_inputs = self.n_memory_inputs();
             for n_units in self.units {
                 n += dense(n_inputs + n_units, 4 * n_units);
                 n_inputs = n_units;

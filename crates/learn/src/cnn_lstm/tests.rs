@@ -47,8 +47,71 @@ fn sizes_are_those_that_the_reference_counts() {
 }
 
 #[test]
+fn the_serial_network_has_the_layers_of_the_paper_in_series() {
+    // Kernel x inputs x filters and a bias for each filter.
+    let convolution = |kernel: usize, n_inputs: usize, n_filters: usize| (kernel * n_inputs + 1) * n_filters;
+    let convolutions = convolution(4, 3, 32)
+        + convolution(4, 32, 64)
+        + convolution(4, 64, 128)
+        + convolution(3, 128, 128)
+        + convolution(3, 128, 64)
+        + convolution(3, 64, 32);
+    // Four gates, each with weights of inputs and states and a bias.
+    let lstm = |n_inputs: usize, n_units: usize| 4 * n_units * (n_inputs + n_units + 1);
+    let memory = lstm(32, 128) + lstm(128, 256) + lstm(256, 256) + lstm(256, 128);
+    let dense = |n_inputs: usize, n_units: usize| (n_inputs + 1) * n_units;
+    // Scale and shift of the batch normalization, then the dense layers.
+    let head = |n: usize| 2 * n + dense(n, 128) + dense(128, 32) + dense(32, 5);
+    let n_trainable = convolutions + memory + head(128);
+    let architecture = Architecture::serial(5);
+    assert_eq!(architecture.n_parameters(), (n_trainable, n_trainable + 2 * 128));
+    assert_eq!(n_trainable, 1_341_829);
+    // The other rivals are the streams alone: 10 pooled samples of 32 filters, or the last state, whose LSTM layers read
+    // three channels.
+    let alone = |streams: Streams| Architecture { streams, ..Architecture::paper320(5) }.n_parameters().0;
+    assert_eq!(alone(Streams::Convolutions), convolutions + head(320));
+    assert_eq!(alone(Streams::Memory), memory - lstm(32, 128) + lstm(3, 128) + head(128));
+    let network = CnnLstm::new(architecture, 1, &Device::Cpu).unwrap();
+    assert_eq!(network.parameters.n_numbers(), n_trainable);
+    // Two more channels only widen the first convolution.
+    let three_axes = Architecture::serial(5).with_three_axes();
+    assert_eq!((three_axes.n_axes(), Architecture::serial(5).n_axes()), (3, 1));
+    assert_eq!(three_axes.n_parameters().0, n_trainable + 2 * 4 * 32);
+}
+
+#[test]
+fn every_network_returns_one_row_of_attributes_for_each_segment() {
+    let paper = Architecture::paper320(5);
+    for architecture in [
+        Architecture { streams: Streams::Convolutions, ..paper.clone() },
+        Architecture { streams: Streams::Memory, ..paper.clone() },
+        Architecture::serial(5),
+        paper.with_three_axes(),
+        Architecture::serial(5).with_three_axes(),
+    ] {
+        let shape = (2, architecture.n_samples, architecture.n_channels);
+        let segments = Tensor::zeros(shape, candle_core::DType::F32, &Device::Cpu).unwrap();
+        let network = CnnLstm::new(architecture, 1, &Device::Cpu).unwrap();
+        assert_eq!(network.predict(&segments).unwrap().dims(), [2, 5]);
+        if network.architecture().streams == Streams::Series {
+            assert_eq!(network.convolved(&segments).unwrap().dims(), [2, 44, 32]);
+        }
+    }
+}
+
+#[test]
+fn sizes_in_files_of_the_first_version_are_read() {
+    let text = r#"{"streams":"both","n_samples":200,"n_channels":3,"padding":"same","filters":[32,64,128,128,64,32],
+        "pools":[4,5],"units":[128,256,256,128],"dense":[128,32],"n_outputs":5}"#;
+    assert_eq!(serde_json::from_str::<Architecture>(text).unwrap(), Architecture::paper320(5));
+    let serial = serde_json::to_value(Architecture::serial(5)).unwrap();
+    assert_eq!(serial["streams"], "series");
+    assert_eq!(serde_json::from_value::<Architecture>(serial).unwrap(), Architecture::serial(5));
+}
+
+#[test]
 fn the_network_is_its_definition() {
-    for streams in [Streams::Both, Streams::Convolutions, Streams::Memory] {
+    for streams in [Streams::Both, Streams::Convolutions, Streams::Memory, Streams::Series] {
         for padding in [Padding::Same, Padding::Valid] {
             let network = CnnLstm::new(tiny(streams, padding), 5, &Device::Cpu).unwrap();
             let segments = Uniform::new(2).within(1.0, 2 * 41 * 3);
@@ -79,8 +142,7 @@ fn slow(network: &CnnLstm, segment: &[Vec<f64>]) -> Vec<f64> {
             .collect()
     };
     let architecture = network.architecture();
-    let mut features = Vec::new();
-    if architecture.streams != Streams::Memory {
+    let convolved = || -> Vec<Vec<f64>> {
         let mut x = segment.to_vec();
         for (index, kernel) in [4, 4, 4, 3, 3, 3].into_iter().enumerate() {
             let width = x[0].len();
@@ -109,10 +171,9 @@ fn slow(network: &CnnLstm, segment: &[Vec<f64>]) -> Vec<f64> {
                 })
                 .collect();
         }
-        features.extend(x.concat());
-    }
-    if architecture.streams != Streams::Convolutions {
-        let mut x = segment.to_vec();
+        x
+    };
+    let remembered = |mut x: Vec<Vec<f64>>| -> Vec<f64> {
         for (index, n) in architecture.units.into_iter().enumerate() {
             let weights = numbers(&format!("lstm{index}.state.weight"));
             let (mut state, mut cell) = (vec![0.0; n], vec![0.0; n]);
@@ -130,8 +191,14 @@ fn slow(network: &CnnLstm, segment: &[Vec<f64>]) -> Vec<f64> {
                 row.clone_from(&state);
             }
         }
-        features.extend(x.last().unwrap());
-    }
+        x.pop().unwrap()
+    };
+    let features = match architecture.streams {
+        Streams::Both => [convolved().concat(), remembered(segment.to_vec())].concat(),
+        Streams::Convolutions => convolved().concat(),
+        Streams::Memory => remembered(segment.to_vec()),
+        Streams::Series => remembered(convolved()),
+    };
     // Initial running statistics: mean 0, variance 1.
     let x: Vec<f64> = features.iter().map(|x| x / 1.001_f64.sqrt()).collect();
     let x: Vec<f64> = dense(&x, "dense0").iter().map(|y| y.max(0.0)).collect();
@@ -141,7 +208,17 @@ fn slow(network: &CnnLstm, segment: &[Vec<f64>]) -> Vec<f64> {
 
 #[test]
 fn slopes_are_those_of_small_steps() {
-    let mut network = CnnLstm::new(tiny(Streams::Both, Padding::Same), 8, &Device::Cpu).unwrap();
+    check_slopes(tiny(Streams::Both, Padding::Same));
+}
+
+#[test]
+fn slopes_of_the_serial_network_are_those_of_small_steps() {
+    check_slopes(tiny(Streams::Series, Padding::Same));
+}
+
+/// Compares the gradient of every tensor with the change of the loss over a small step along it.
+fn check_slopes(architecture: Architecture) {
+    let mut network = CnnLstm::new(architecture, 8, &Device::Cpu).unwrap();
     let segments =
         Tensor::from_vec(Uniform::new(3).within(1.0, 4 * 41 * 3), (4, 41, 3), &Device::Cpu).unwrap();
     let loss = |network: &mut CnnLstm| {
@@ -154,6 +231,8 @@ fn slopes_are_those_of_small_steps() {
         let gradient = gradients.get(network.parameters.get(&name).unwrap()).unwrap().clone();
         // A small step along the gradient of this tensor.
         let square: f32 = gradient.sqr().unwrap().sum_all().unwrap().to_scalar().unwrap();
+        // The gradient of the first convolution passes every other layer.
+        assert!(square > 0.0 || name != "conv0.weight", "no gradient reaches the first layer");
         let step = 2e-3 / f64::from(square.sqrt()).max(1e-6);
         let mut at = |factor: f64| {
             let mut numbers = network.snapshot().unwrap();

@@ -4,7 +4,8 @@ use candle_core::{Device, Tensor};
 use shagreen_core::maths::rng::{Random, derive_seed};
 use shagreen_core::maths::statistics::mean;
 
-use super::{PictureConfig, fresh, run};
+use super::PictureConfig;
+use crate::dense_stack::{fresh, run};
 use crate::model_file::Numbers;
 use crate::parameters::{Adam, AdamConfig, Parameters};
 

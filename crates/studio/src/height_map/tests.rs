@@ -1,10 +1,13 @@
 use std::cell::RefCell;
+use std::io::Cursor;
 use std::sync::Arc;
 
 use shagreen_core::texture::shape::{Shape, ShapeControl};
 use shagreen_formats::picture::{Rgb, encode_heights, encode_png};
 use shagreen_formats::starter::starter_library;
 use shagreen_formats::text_limits::MAX_NOTES;
+use tiff::encoder::TiffEncoder;
+use tiff::encoder::colortype::Gray32Float;
 
 use super::{
     HeightMapOptions, PictureRelief, PictureTile, ReliefPlace, ReliefSize, ReliefSizeError, add_to_texture,
@@ -32,6 +35,15 @@ fn gray_ridges() -> Vec<u8> {
     encode_heights(&heights, 64).unwrap()
 }
 
+/// A TIFF of numbers of single precision.
+fn float_tiff(side: u32, number: impl Fn(u32, u32) -> f32) -> Vec<u8> {
+    let numbers: Vec<f32> = (0..side * side).map(|i| number(i % side, i / side)).collect();
+    let mut bytes = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
+    encoder.write_image::<Gray32Float>(side, side, &numbers).unwrap();
+    bytes.into_inner()
+}
+
 fn made(tile: &PictureTile, size: ReliefSize) -> PictureRelief {
     relief(tile, size, HeightMapOptions::HARD_PLASTIC).unwrap()
 }
@@ -43,6 +55,20 @@ fn the_heights_of_a_photo_are_said_to_be_assumed() {
     assert!(said.contains("faded into each other"), "{said}");
     let said = made(&PictureTile::read(&gray_ridges()).unwrap(), SIZE).assumption;
     assert!(!said.contains("assumed") && said.contains("fit together"), "{said}");
+}
+
+/// A picture of numbers has no black and white: its lowest and highest number stand for them.
+#[test]
+fn the_heights_of_numbers_reach_from_the_lowest_to_the_highest() {
+    let relief = made(
+        &PictureTile::read(&float_tiff(64, |x, _| if (x + 8) % 32 < 16 { -3.5 } else { 4.0 })).unwrap(),
+        SIZE,
+    );
+    assert!(relief.assumption.starts_with("the number in each pixel"), "{}", relief.assumption);
+    assert!(relief.assumption.contains("0 µm (lowest) to 50 µm (highest)"), "{}", relief.assumption);
+    let heights_m = relief.map.heights_m().iter();
+    let [low, high] = [f64::min, f64::max].map(|of| heights_m.clone().copied().fold(0.0, of));
+    assert!((high - low - 50e-6).abs() < 1e-12, "{low} to {high}");
 }
 
 /// The picture that the pad shows has the width of the tile, so that it is felt where it is seen.

@@ -1,8 +1,8 @@
 //! Card about the last estimate, over the map: its picture, its position with uncertainty, and how the prompt was interpreted.
 
 use egui::{
-    Align, Button, Label, Layout, Rect, RichText, Role, Sense, Stroke, StrokeKind, TextureHandle, Ui,
-    WidgetInfo, pos2, vec2,
+    Align, Button, Color32, Label, Layout, Rect, RichText, Role, Sense, Stroke, StrokeKind, TextureHandle,
+    Ui, WidgetInfo, pos2, vec2,
 };
 
 use super::{Origin, PositionEstimate};
@@ -23,7 +23,7 @@ const BELOW_BAR: f32 = 34.0;
 const MARGIN: f32 = 10.0;
 /// Distance of the card from the lower edge of the map, above the words of the axis, in points.
 const ABOVE_FOOT: f32 = 30.0;
-/// Time after a click that closes the card in which clicks at its place do nothing, in seconds.
+/// Time after a click that closes or moves the card in which clicks at its former place do nothing, in seconds.
 const DOUBLE_CLICK_SECS: f64 = 0.6;
 /// Number of nearest textures that are named.
 const N_NEAR: usize = 3;
@@ -33,12 +33,14 @@ const N_NEAR: usize = 3;
 pub(crate) struct CardPlace {
     /// Height in the last frame, in points.
     height: Option<f32>,
-    /// Area of a card that was just closed, and the time of that, in seconds.
+    /// Area in the last frame in which the card was drawn.
+    area: Option<Rect>,
+    /// Area of a card that was just closed, or has just moved to the other edge, and the time of that, in seconds.
     closed: Option<(Rect, f64)>,
 }
 
 impl CardPlace {
-    /// Takes the clicks at the place of a card that was just closed, so that a second click changes nothing below it.
+    /// Takes the clicks at the place that a card has just left, so that a second click changes nothing below it.
     /// Called after the map is drawn.
     pub(crate) fn block(&mut self, ui: &Ui) {
         let now_secs = ui.input(|i| i.time);
@@ -66,6 +68,10 @@ pub(crate) fn card_ui(
     let is_above = guess.at().hard_soft < 50.0;
     let top = if is_above { map.top() + BELOW_BAR } else { map.bottom() - ABOVE_FOOT - height };
     let area = Rect::from_min_size(pos2(map.center().x - 0.5 * width, top), vec2(width, height));
+    let now_secs = ui.input(|i| i.time);
+    if let Some(before) = place.area.replace(area).filter(|before| !before.intersects(area)) {
+        place.closed = Some((before, now_secs));
+    }
     // Below the card, nothing is pointed at or clicked.
     let response = ui.interact(area, ui.scope_id().with("card"), Sense::CLICK | Sense::DRAG);
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, words::guessed(&guess.name)));
@@ -78,7 +84,7 @@ pub(crate) fn card_ui(
         let [width, height] = picture.size().map(|pixels| pixels as f32);
         let (x, y) = (0.5 * (width / height).recip().min(1.0), 0.5 * (width / height).min(1.0));
         let part = Rect::from_min_max(pos2(0.5 - x, 0.5 - y), pos2(0.5 + x, 0.5 + y));
-        ui.painter().image(picture.id(), frame, part, egui::Color32::WHITE);
+        ui.painter().image(picture.id(), frame, part, Color32::WHITE);
     } else {
         ui.painter().rect_filled(frame, f32::from(RADIUS) - 1.0, t.background);
     }
@@ -92,7 +98,7 @@ pub(crate) fn card_ui(
     let close = close_button(buttons.ctx());
     if buttons.add(close).accessible_name(words::DISMISS).on_hover_text(words::DISMISS).clicked() {
         asked = Some(PromptCommand::Dismiss);
-        place.closed = Some((area, ui.input(|i| i.time)));
+        (place.area, place.closed) = (None, Some((area, now_secs)));
     }
     if matches!(guess.origin, Origin::Words { .. }) {
         let another = buttons.add_enabled(!is_busy, Button::new(words::ANOTHER));
@@ -113,15 +119,47 @@ pub(crate) fn card_ui(
     lines.add(position.truncate().selectable(false)).on_hover_text(help);
     let near = words::near(&nearest(panel, guess));
     lines.add(Label::new(RichText::new(near).small()).truncate().selectable(false));
-    let all = guess.said.join(" ");
-    let color = if guess.is_disputed { t.warning } else { t.text_weak };
-    lines.add(Label::new(RichText::new(&all).small().color(color)).wrap().selectable(false));
+    if let Some(command) = materials_ui(&mut lines, guess) {
+        asked = Some(command);
+    }
+    let mut sentences = |said: &[String], color: Color32| {
+        if !said.is_empty() {
+            let text = RichText::new(said.join(" ")).small().color(color);
+            lines.add(Label::new(text).wrap().selectable(false));
+        }
+    };
+    sentences(&guess.doubts, t.warning);
+    sentences(&guess.said, if guess.is_disputed { t.warning } else { t.text_weak });
     let needed = (lines.min_rect().bottom() + 5.0 - area.top()).max(HEIGHT);
     if (needed - height).abs() > 0.5 {
         ui.ctx().request_discard("the height of the card has changed");
     }
     place.height = Some(needed);
     asked.map(Command::Prompt)
+}
+
+/// Draws the materials that the picture is likely to show. A click on one takes its lexicon entry; a click on the taken one
+/// takes the estimate from the picture again.
+fn materials_ui(ui: &mut Ui, guess: &PositionEstimate) -> Option<PromptCommand> {
+    if guess.materials.is_empty() {
+        return None;
+    }
+    let mut asked = None;
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
+        ui.add(Label::new(RichText::new(words::LOOKS_LIKE).small()).selectable(false));
+        for material in &guess.materials {
+            let is_taken = guess.taken.as_ref() == Some(&material.name);
+            let button = Button::new(RichText::new(&material.label).small()).small().selected(is_taken);
+            let help =
+                if is_taken { words::UNTAKE_HELP.to_owned() } else { words::take_help(&material.name) };
+            let button = ui.add_enabled(material.axes.is_some(), button);
+            if button.on_hover_text(help).on_disabled_hover_text(words::NO_ENTRY).clicked() {
+                asked = Some(PromptCommand::TakeMaterial((!is_taken).then(|| material.name.clone())));
+            }
+        }
+    });
+    asked
 }
 
 /// Names of the nearest textures of the selected authored texture, nearest first, without the one that was simulated from the picture.

@@ -9,6 +9,7 @@ use shagreen_core::surfaces::prompt::{OPEN, PromptInterpretation};
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_formats::picture::Picture;
 use shagreen_studio::felt::GeneratedSurface;
+use shagreen_studio::seen_materials::SeenMaterial;
 
 use crate::strings::prompt as strings;
 
@@ -31,8 +32,25 @@ pub struct PositionEstimate {
     pub axes: [Estimate; 2],
     /// Explanations as sentences, the most important ones first.
     pub said: Vec<String>,
-    /// Whether words and picture lead to different estimates on an axis.
+    /// Whether words and an independent picture lead to different estimates on an axis.
     pub is_disputed: bool,
+    /// Materials that the picture is likely to show, the most likely first. Empty for a picture that was made from the words.
+    pub materials: Vec<MaterialEstimate>,
+    /// Doubts about the picture, as sentences with what to do.
+    pub doubts: Vec<String>,
+    /// Material whose lexicon entry the user has taken instead of the estimate from the picture.
+    pub taken: Option<String>,
+}
+
+/// Material that a picture is likely to show.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MaterialEstimate {
+    /// Name of the material.
+    pub name: String,
+    /// Name and probability, in percent.
+    pub label: String,
+    /// Estimates of its lexicon entry along the axes, if it has one.
+    pub axes: Option<[Estimate; 2]>,
 }
 
 /// Source of an estimate.
@@ -45,8 +63,13 @@ pub enum Origin {
         /// Seed of the picture generator.
         seed: u64,
     },
-    /// Photo with this file name.
-    Photo(String),
+    /// Photo.
+    Photo {
+        /// Name of the file.
+        name: String,
+        /// Words that were given with it.
+        prompt: Option<String>,
+    },
 }
 
 impl PositionEstimate {
@@ -63,9 +86,47 @@ impl PositionEstimate {
 
     /// Notes for the texture that is made from the estimate.
     pub(crate) fn notes(&self) -> String {
-        match &self.origin {
-            Origin::Words { prompt, seed } => strings::note_of_words(&self.made_by, *seed, prompt),
-            Origin::Photo(name) => strings::note_of_photo(name),
+        match (&self.origin, &self.taken) {
+            (Origin::Words { prompt, seed }, None) => strings::note_of_words(&self.made_by, *seed, prompt),
+            (Origin::Words { prompt, seed }, Some(material)) => {
+                let note = strings::note_of_words(&self.made_by, *seed, prompt);
+                format!("{note}\n{}", strings::by_material(material))
+            }
+            (Origin::Photo { name, prompt }, None) => strings::note_of_photo(name, prompt.as_deref()),
+            (Origin::Photo { name, .. }, Some(material)) => {
+                strings::note_of_material_in_photo(name, material)
+            }
+        }
+    }
+
+    /// The estimate with the lexicon entry of one of its materials; `None` if it has none.
+    pub(super) fn with_material(&self, name: &str) -> Option<Self> {
+        let axes = self.materials.iter().find(|material| material.name == name)?.axes?;
+        Some(Self {
+            // In memory of its own, so that undo brings the former estimate back together with its picture.
+            picture: Arc::new(Picture::clone(&self.picture)),
+            axes,
+            said: vec![strings::by_material(name), strings::NO_SCALE.to_owned()],
+            is_disputed: false,
+            doubts: Vec::new(),
+            taken: Some(name.to_owned()),
+            ..self.clone()
+        })
+    }
+}
+
+impl MaterialEstimate {
+    /// A material with the estimates of its lexicon entry along these axes. An axis without an estimate is [`OPEN`].
+    pub(super) fn new(seen: &SeenMaterial, axes: &[String; 2]) -> Self {
+        let along = |name: &String| {
+            let index = ATTRIBUTES.iter().position(|attribute| attribute == name);
+            let hint = index.and_then(|index| seen.entry.as_ref()?.hints[index]);
+            hint.unwrap_or(OPEN)
+        };
+        Self {
+            name: seen.name.clone(),
+            label: seen.label(),
+            axes: seen.entry.as_ref().map(|_| axes.each_ref().map(along)),
         }
     }
 }
@@ -101,11 +162,16 @@ pub(super) fn on_axes<'a>(
 
 #[cfg(test)]
 mod tests {
-    use super::on_axes;
+    use std::sync::Arc;
+
+    use super::{MaterialEstimate, Origin, PositionEstimate, on_axes};
     use shagreen_core::maths::gaussian_process::Estimate;
     use shagreen_core::surfaces::generated::Witness;
     use shagreen_core::surfaces::prompt::{OPEN, interpret};
     use shagreen_formats::lexicon_toml::built_in_lexicon;
+    use shagreen_formats::starter::starter_library;
+    use shagreen_learn::picture_predictor::LikelyMaterial;
+    use shagreen_studio::seen_materials::seen_materials;
 
     #[test]
     fn axes_are_told_by_their_names() {
@@ -122,5 +188,42 @@ mod tests {
         assert!(open[1].mean > 70.0, "{open:?}");
         assert_eq!(on_axes(&usual, None, &picture, Witness::OnItsOwn).0, picture);
         assert_eq!(on_axes(&other, None, &picture, Witness::OnItsOwn).0, [OPEN; 2]);
+    }
+
+    #[test]
+    fn a_material_has_the_estimates_of_the_lexicon_along_the_axes() {
+        let lexicon = built_in_lexicon().unwrap();
+        let likely = [("carpet", 0.6), ("plasma", 0.3)]
+            .map(|(name, probability)| LikelyMaterial { name: name.to_owned(), probability });
+        let seen = seen_materials(&likely, lexicon);
+        let hints = lexicon.material("carpet").unwrap().1;
+        let axes = ["hard-soft", "warm-cold"].map(str::to_owned);
+        let carpet = MaterialEstimate::new(&seen[0], &axes);
+        assert_eq!(carpet.label, "carpet 60 %");
+        assert_eq!(carpet.axes, Some([hints[1].unwrap(), OPEN]));
+        assert_eq!(MaterialEstimate::new(&seen[1], &axes).axes, None);
+
+        let starter = starter_library().unwrap();
+        let estimate = PositionEstimate {
+            key: Some(1),
+            origin: Origin::Photo { name: "floor.jpg".to_owned(), prompt: None },
+            made_by: "photo".to_owned(),
+            picture: Arc::new(starter.textures[0].picture.clone().unwrap()),
+            surface: None,
+            name: "floor".to_owned(),
+            axes: [OPEN; 2],
+            said: Vec::new(),
+            is_disputed: false,
+            materials: seen.iter().map(|seen| MaterialEstimate::new(seen, &axes)).collect(),
+            doubts: vec!["The picture is blurred.".to_owned()],
+            taken: None,
+        };
+        assert!(estimate.notes().contains("from the photo floor.jpg"));
+        let taken = estimate.with_material("carpet").unwrap();
+        assert_eq!((taken.axes, &taken.taken), (carpet.axes.unwrap(), &Some("carpet".to_owned())));
+        assert!(taken.notes().contains("carpet in the lexicon") && taken.doubts.is_empty());
+        assert!(taken.picture == estimate.picture && !Arc::ptr_eq(&taken.picture, &estimate.picture));
+        assert_eq!(estimate.with_material("plasma"), None);
+        assert_eq!(estimate.with_material("brick"), None);
     }
 }

@@ -7,6 +7,7 @@ use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::library::{Library, LibraryError, read_library, write_library};
 use shagreen_formats::project::{ProjectError, read_project};
 
+use crate::state::blank_file::BlankFile;
 use crate::state::figure_file::FigureFile;
 use crate::state::stroke_file::StrokeFile;
 use crate::strings::{build, document, import as strings, stroke};
@@ -25,6 +26,7 @@ pub(super) enum Outcome {
 pub(super) enum Content {
     Library(Box<Library>),
     Figure(FigureFile),
+    Blank(BlankFile),
     Stroke(StrokeFile),
     /// The document writes it once that is permitted.
     Project,
@@ -36,6 +38,7 @@ impl Content {
         let bytes = match self {
             Self::Library(library) => write_library(library),
             Self::Figure(figure) => figure.bytes()?,
+            Self::Blank(file) => file.bytes(),
             Self::Stroke(file) => file.bytes(),
             Self::Project => return Ok(Outcome::MayBeWritten),
         };
@@ -53,6 +56,7 @@ impl Content {
                 _ => None,
             },
             Self::Figure(figure) => (!figure.is_like(bytes)).then(|| build::no_figure(figure.format.word())),
+            Self::Blank(file) => (!file.may_replace(bytes)).then(|| build::NOT_BLANK.to_owned()),
             Self::Stroke(_) => (!StrokeFile::is_like(bytes)).then(|| stroke::NO_STROKE.to_owned()),
             Self::Project => is_project(bytes).err().map(|reason| document::no_project(&reason)),
         }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Label, RichText, ScrollArea, Ui};
+use egui::{Align, Label, Layout, Rect, RichText, ScrollArea, Ui, UiBuilder, pos2};
 use shagreen_formats::figure::Tone;
 
 use super::{SignalsPage, View};
@@ -22,6 +22,11 @@ use crate::strings::signals as strings;
 
 /// Range of the window length, in mm: from the shortest to the longest window of the paper.
 const WINDOWS_MM: (f64, f64) = (0.2, 20.0);
+/// Width in points below which figures are placed below each other, if the height allows it: three of them beside each
+/// other would shorten their labels.
+const NARROW: f32 = 800.0;
+/// Least height in points of figures below each other.
+const TALL: f32 = 420.0;
 
 impl SignalsPage {
     /// Draws the tabs and the selected view.
@@ -94,29 +99,28 @@ impl SignalsPage {
         // The maps of this frame, even if the signal is edited in it.
         let maps = Slot::ALL.map(|slot| self.maps.map(slot).cloned());
         let mut painted = None;
-        ui.columns_const(|columns: &mut [Ui; 3]| {
-            let [first, second, third] = columns;
-            let stem = strings::stem(View::Places, Slot::A);
-            match (&maps[0], self.signal(Slot::A).map(|signal| 1e3 * signal.profile.length_m())) {
-                (Some(Ok(figure)), Some(length_mm)) => {
-                    let (save, _) = places_map_ui(first, Slot::A, figure, stem, &mut self.spatial, length_mm);
-                    commands.extend(save);
-                }
-                (map, _) => commands.extend(map_ui(first, Slot::A, map.as_ref(), stem)),
+        let [mut first, mut second, mut third] = three_areas(ui);
+        let stem = strings::stem(View::Places, Slot::A);
+        match (&maps[0], self.signal(Slot::A).map(|signal| 1e3 * signal.profile.length_m())) {
+            (Some(Ok(figure)), Some(length_mm)) => {
+                let spatial = &mut self.spatial;
+                let (save, _) = places_map_ui(&mut first, Slot::A, figure, stem, spatial, length_mm);
+                commands.extend(save);
             }
-            match (&maps[1], &signal) {
-                (Some(Ok(figure)), Some(signal)) => {
-                    let stem = strings::stem(View::Places, Slot::B);
-                    let editor = &mut self.editor;
-                    let shown = spatial_ui(second, figure, stem, &mut self.spatial, editor, signal, window_m);
-                    commands.extend(shown.save);
-                    painted = shown.painted;
-                }
-                (map, _) => commands.extend(map_ui(second, Slot::B, map.as_ref(), "")),
+            (map, _) => commands.extend(map_ui(&mut first, Slot::A, map.as_ref(), stem)),
+        }
+        match (&maps[1], &signal) {
+            (Some(Ok(figure)), Some(signal)) => {
+                let stem = strings::stem(View::Places, Slot::B);
+                let (spatial, editor) = (&mut self.spatial, &mut self.editor);
+                let shown = spatial_ui(&mut second, figure, stem, spatial, editor, signal, window_m);
+                commands.extend(shown.save);
+                painted = shown.painted;
             }
-            waiting_ui(third, is_waiting);
-            commands.extend(framed_figure_ui(third, "fidelity by window", &fidelity, "fidelity-by-window"));
-        });
+            (map, _) => commands.extend(map_ui(&mut second, Slot::B, map.as_ref(), "")),
+        }
+        waiting_ui(&mut third, is_waiting);
+        commands.extend(framed_figure_ui(&mut third, "fidelity by window", &fidelity, "fidelity-by-window"));
         if let Some(painted) = painted {
             self.take_painted(painted);
         }
@@ -140,35 +144,81 @@ impl SignalsPage {
         let rates = Arc::new(rates_figure(&known));
         let names = Slot::ALL.map(|slot| self.signal(slot).map_or("", |signal| &signal.name));
         let compared = self.compared();
-        ui.columns_const(|columns: &mut [Ui; 2]| {
-            let [left, right] = columns;
-            match compared {
-                Some(Ok(compared)) => {
-                    let figure = Arc::new(features_figure(compared, names));
-                    let scroll = ScrollArea::both().id_salt("features").auto_shrink(false);
-                    commands.extend(scroll.show(left, |ui| features_ui(ui, compared, names, &figure)).inner);
-                }
-                Some(Err(reason)) => {
-                    let text = RichText::new(reason).color(tokens(left.ctx()).warning);
-                    left.add(Label::new(text).wrap());
-                }
-                None => {
-                    let is_pair = self.pair().is_some();
-                    let said = if is_pair { strings::MAKING } else { strings::NEEDS_PAIR };
-                    let text = RichText::new(said).color(tokens(left.ctx()).text_weak);
-                    left.add(Label::new(text).wrap());
-                }
+        let [mut left, mut right] = two_areas(ui);
+        match compared {
+            Some(Ok(compared)) => {
+                let figure = Arc::new(features_figure(compared, names));
+                let scroll = ScrollArea::both().id_salt("features").auto_shrink(false);
+                commands.extend(scroll.show(&mut left, |ui| features_ui(ui, compared, names, &figure)).inner);
             }
-            waiting_ui(right, known.len() < self.n_signals());
-            for (_, name, of) in &known {
-                if let Err(reason) = of {
-                    let text = RichText::new(format!("{name}: {reason}")).small();
-                    right.add(Label::new(text).wrap());
-                }
+            Some(Err(reason)) => {
+                let text = RichText::new(reason).color(tokens(left.ctx()).warning);
+                left.add(Label::new(text).wrap());
             }
-            commands.extend(framed_figure_ui(right, "d' by rate", &rates, "d-prime-by-rate"));
-        });
+            None => {
+                let is_pair = self.pair().is_some();
+                let said = if is_pair { strings::MAKING } else { strings::NEEDS_PAIR };
+                let text = RichText::new(said).color(tokens(left.ctx()).text_weak);
+                left.add(Label::new(text).wrap());
+            }
+        }
+        waiting_ui(&mut right, known.len() < self.n_signals());
+        for (_, name, of) in &known {
+            if let Err(reason) = of {
+                let text = RichText::new(format!("{name}: {reason}")).small();
+                right.add(Label::new(text).wrap());
+            }
+        }
+        commands.extend(framed_figure_ui(&mut right, "d' by rate", &rates, "d-prime-by-rate"));
     }
+}
+
+/// Areas of three figures in the remaining space: beside each other, or two above one in a narrow window.
+fn three_areas(ui: &mut Ui) -> [Ui; 3] {
+    let area = ui.available_rect_before_wrap();
+    if is_wide(area) {
+        return areas(ui, columns(area, ui.spacing().item_spacing.x));
+    }
+    let [upper, lower] = rows(area);
+    let [first, second] = columns(upper, ui.spacing().item_spacing.x);
+    areas(ui, [first, second, lower])
+}
+
+/// Areas of two figures in the remaining space: beside each other, or below each other in a narrow window.
+fn two_areas(ui: &mut Ui) -> [Ui; 2] {
+    let area = ui.available_rect_before_wrap();
+    let gap = ui.spacing().item_spacing.x;
+    areas(ui, if is_wide(area) { columns(area, gap) } else { rows(area) })
+}
+
+/// Whether figures are placed beside each other.
+fn is_wide(area: Rect) -> bool {
+    area.width() >= NARROW || area.height() < TALL
+}
+
+fn areas<const N: usize>(ui: &mut Ui, rects: [Rect; N]) -> [Ui; N] {
+    ui.advance_cursor_after_rect(ui.available_rect_before_wrap());
+    rects.map(|rect| {
+        ui.new_child(UiBuilder::new().max_rect(rect).layout(Layout::top_down_justified(Align::Min)))
+    })
+}
+
+/// Columns of the same width, with a gap between them.
+fn columns<const N: usize>(area: Rect, gap: f32) -> [Rect; N] {
+    let width = (area.width() - (N as f32 - 1.0) * gap) / N as f32;
+    std::array::from_fn(|i| {
+        let left = area.left() + i as f32 * (width + gap);
+        Rect::from_min_max(pos2(left, area.top()), pos2(left + width, area.bottom()))
+    })
+}
+
+/// Two rows of the same height, with a gap between them.
+fn rows(area: Rect) -> [Rect; 2] {
+    let middle = area.center().y;
+    [
+        Rect::from_min_max(area.min, pos2(area.right(), middle - 0.5 * GROUP_GAP)),
+        Rect::from_min_max(pos2(area.left(), middle + 0.5 * GROUP_GAP), area.max),
+    ]
 }
 
 /// Shows that a computation is still running.

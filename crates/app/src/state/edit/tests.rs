@@ -31,6 +31,26 @@ fn edits_are_named() {
 }
 
 #[test]
+fn a_material_moves_the_texture_and_changes_nothing_else() {
+    let starter = starter_library().unwrap();
+    let picture = Arc::new(starter.textures[0].picture.clone().unwrap());
+    let take = |material: Option<&str>| Edit::TakeMaterial {
+        material: material.map(str::to_owned),
+        at: SpacePoint { rough_smooth: 29.0, hard_soft: 89.0 },
+        picture: Arc::clone(&picture),
+        notes: "carpet".to_owned(),
+    };
+    assert_eq!(take(Some("carpet")).label(&project()), "Move Oak copy to carpet");
+    assert_eq!(take(None).label(&project()), "Move Oak copy to estimate from picture");
+    let solo = after(&project(), [Edit::Solo(Some("cork".to_owned())), lock("oak", true)]);
+    let taken = after(&solo, [take(Some("carpet"))]);
+    let texture = taken.texture();
+    assert_eq!((texture.at.hard_soft, texture.notes.as_str(), &taken.solo), (89.0, "carpet", &None));
+    assert!(texture.picture.as_ref().is_some_and(|of| Arc::ptr_eq(of, &picture)));
+    assert!(texture.blend.is_locked("oak"));
+}
+
+#[test]
 fn a_texture_becomes_exactly_one_of_the_library() {
     let at = SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 };
     let before = after(

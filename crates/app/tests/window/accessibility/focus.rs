@@ -21,6 +21,8 @@ use crate::frame::painted;
 const MOST: usize = 400;
 /// Greatest gap between neighbors in a row, in points.
 const NEIGHBORS: f32 = 20.0;
+/// Gap in points to the left of a control in a lower row from which it counts as part of another panel.
+const ACROSS: f32 = 750.0;
 /// Least gap below which the next panel begins, in points.
 const FAR_BELOW: f32 = 120.0;
 /// Width and height above which a shared area of two runs counts, in points.
@@ -240,6 +242,7 @@ fn goes_back(from: Rect, to: Rect) -> bool {
     if shared > 0.5 * from.height().min(to.height()) {
         to.left() < from.left() - 2.0 && from.left() - to.right() > NEIGHBORS
     } else {
-        to.center().y < from.center().y || to.top() - from.bottom() > FAR_BELOW
+        let is_across = to.left() - from.right() > ACROSS;
+        to.center().y < from.center().y || to.top() - from.bottom() > FAR_BELOW || is_across
     }
 }

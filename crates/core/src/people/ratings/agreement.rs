@@ -1,7 +1,9 @@
-//! Inter-rater agreement: intraclass correlations ICC(2,1) and ICC(2,k) of Shrout and Fleiss (1979).
+//! Inter-rater agreement: intraclass correlations ICC(2,1) and ICC(2,k) of Shrout and Fleiss (1979), and Cronbach's
+//! alpha.
 //!
-//! The model is two-way random effects with absolute agreement. Textures and raters are both random samples, and a
-//! constant bias of a rater counts as disagreement. Confidence intervals follow McGraw and Wong (1996), case A.
+//! The model of the ICC is two-way random effects with absolute agreement. Textures and raters are both random samples,
+//! and a constant bias of a rater counts as disagreement. Confidence intervals follow McGraw and Wong (1996), case A.
+//! Alpha, with the raters as items, ignores such a bias; it equals ICC(3,k). Its interval follows Feldt (1965).
 
 use super::RatingTable;
 use crate::maths::statistics::{f_quantile_above, f_upper_tail, mean};
@@ -27,6 +29,9 @@ pub struct Agreement {
     pub single: IntraclassCorrelation,
     /// Agreement of the mean over all raters: ICC(2,k).
     pub average: IntraclassCorrelation,
+    /// Consistency of the mean over all raters: Cronbach's alpha, which equals ICC(3,k). Minus infinity if the means of
+    /// the textures are equal.
+    pub alpha: IntraclassCorrelation,
     /// F statistic: mean square of the textures divided by that of the error.
     pub f: f64,
     /// Degrees of freedom of the textures and of the error.
@@ -99,7 +104,7 @@ pub fn agreement(table: &RatingTable, pair: usize) -> Result<Agreement, Agreemen
         low: of_mean(single.low),
         high: of_mean(single.high),
     };
-    Ok(Agreement { single, average, f, dof, p_value, participants, textures })
+    Ok(Agreement { single, average, alpha: squares.alpha(), f, dof, p_value, participants, textures })
 }
 
 /// Indices of participants and textures that have no missing ratings among them.
@@ -164,6 +169,23 @@ impl MeanSquares {
     fn average(&self) -> Option<f64> {
         let whole = self.textures + (self.raters - self.error) / self.n;
         (whole > NO_VARIANCE).then(|| (self.textures - self.error) / whole)
+    }
+
+    /// Cronbach's alpha with the interval of Feldt (1965): `(1 - alpha) / (1 - estimate)` has an F distribution.
+    fn alpha(&self) -> IntraclassCorrelation {
+        let Self { n, k, textures, error, .. } = *self;
+        if error <= NO_VARIANCE {
+            // The raters differ only by constants.
+            return IntraclassCorrelation { value: 1.0, low: 1.0, high: 1.0 };
+        }
+        if textures <= NO_VARIANCE {
+            let none = f64::NEG_INFINITY;
+            return IntraclassCorrelation { value: none, low: none, high: none };
+        }
+        let left = error / textures;
+        let dof = [n - 1.0, (n - 1.0) * (k - 1.0)];
+        let limit = |probability: f64| 1.0 - left * f_quantile_above(probability, dof[0], dof[1]);
+        IntraclassCorrelation { value: 1.0 - left, low: limit(0.025), high: limit(0.975) }
     }
 
     /// ICC(2,1) with the interval of McGraw and Wong (1996); `None` if it is undefined.

@@ -3,7 +3,7 @@ use super::{
     averages, rater_fits, relevances,
 };
 use crate::maths::rng::Random;
-use crate::maths::statistics::correlation;
+use crate::maths::statistics::{correlation, standard_deviation};
 
 fn pair(low: &str, high: &str) -> AdjectivePair {
     AdjectivePair { low: low.into(), high: high.into() }
@@ -53,6 +53,10 @@ fn agreement_is_that_of_the_published_example() {
     close(got.average.value, 0.62);
     close(got.average.low, 0.07);
     close(got.average.high, 0.93);
+    // ICC(3,4) of the paper, which is Cronbach's alpha, and the interval of common statistics packages.
+    close(got.alpha.value, 0.91);
+    close(got.alpha.low, 0.68);
+    close(got.alpha.high, 0.99);
     assert!(
         (got.f - 11.03).abs() < 0.01 && got.dof == [5, 15] && (got.p_value - 1.35e-4).abs() < 5e-7,
         "{got:?}"
@@ -67,6 +71,40 @@ fn a_bias_lowers_absolute_agreement_and_exact_agreement_is_one() {
     assert!(biased.single.value < 0.98 && biased.f > 1e20);
     let flat = agreement(&table(&[&[1.0, 11.0], &[1.0, 11.0], &[1.0, 11.0]]), 0);
     assert_eq!(flat, Err(AgreementError::Constant));
+}
+
+/// Cronbach's alpha from its definition: `k / (k - 1) (1 - Σ variance of a rater / variance of the sums)`.
+fn alpha_by_definition(rows: &[&[f64]]) -> f64 {
+    let variance = |values: &[f64]| standard_deviation(values).powi(2);
+    let k = rows[0].len();
+    let raters: f64 =
+        (0..k).map(|rater| variance(&rows.iter().map(|row| row[rater]).collect::<Vec<f64>>())).sum();
+    let sums: Vec<f64> = rows.iter().map(|row| row.iter().sum()).collect();
+    k as f64 / (k as f64 - 1.0) * (1.0 - raters / variance(&sums))
+}
+
+#[test]
+fn alpha_is_that_of_its_definition_and_ignores_a_bias() {
+    let biased: [&[f64]; 3] = [&[1.0, 11.0], &[50.0, 60.0], &[80.0, 90.0]];
+    let got = agreement(&table(&biased), 0).unwrap();
+    assert_eq!((got.alpha.value, got.alpha.low, got.alpha.high), (1.0, 1.0, 1.0));
+    assert!(got.average.value < 1.0);
+    let mut random = Random::new(12);
+    for case in 0..100 {
+        let (n, k) = (3 + case % 9, 2 + case % 5);
+        let rows: Vec<Vec<f64>> = (0..n)
+            .map(|i| (0..k).map(|j| 5.0 * f64::from(i + j) + 20.0 * random.uniform()).collect())
+            .collect();
+        let rows: Vec<&[f64]> = rows.iter().map(Vec::as_slice).collect();
+        let Ok(found) = agreement(&table(&rows), 0) else { continue };
+        let alpha = found.alpha;
+        // Variances of two-digit numbers, without cancellation.
+        assert!(
+            (alpha.value - alpha_by_definition(&rows)).abs() < 1e-9 * (1.0 + alpha.value.abs()),
+            "{alpha:?}"
+        );
+        assert!(alpha.low <= alpha.value && alpha.value <= alpha.high && alpha.high <= 1.0, "{alpha:?}");
+    }
 }
 
 #[test]
@@ -115,7 +153,9 @@ fn averages_have_the_interval_of_students_t() {
     // 4.303 · 10 / √3: the 97.5 % quantile of t with two degrees of freedom is 4.30265.
     assert_eq!(averages[0].mean, Some(20.0));
     assert!((averages[0].half_width.unwrap() - 4.302_652_7 * 10.0 / 3.0_f64.sqrt()).abs() < 1e-5);
+    assert!((averages[0].standard_error.unwrap() - 10.0 / 3.0_f64.sqrt()).abs() < 1e-12);
     assert_eq!((averages[1].n_raters, averages[1].mean, averages[1].half_width), (1, Some(70.0), None));
+    assert_eq!(averages[1].standard_error, None);
     assert_eq!((averages[2].n_raters, averages[2].mean), (0, None));
 }
 
@@ -198,6 +238,11 @@ fn raters_who_rate_otherwise_are_reported() {
     assert!(fits[6].outlying);
     assert!(fits[7].by_pair[0].unwrap() > 0.8 && fits[7].by_pair[1].unwrap() < -0.8 && fits[7].outlying);
     assert!(!fits[8].outlying && fits[8].correlation.is_none() && fits[8].n_ratings == 25);
+    // Reversed poles and constant ratings are reported by pair.
+    for (i, fit) in fits.iter().enumerate() {
+        assert_eq!(fit.reversed_pairs, if i == 7 { vec![1] } else { Vec::new() }, "{fit:?}");
+        assert_eq!(fit.constant_pairs, if i == 8 { vec![0] } else { Vec::new() }, "{fit:?}");
+    }
 }
 
 #[test]

@@ -152,23 +152,27 @@ pub(super) fn check(recording: usize, r: &Recording) -> Result<(), FitError> {
     Ok(())
 }
 
-/// High-pass filters every usable range, in one forward pass. The spectrum does not depend on the phase, and above
-/// twice the cutoff the delay is only a few milliseconds.
+/// High-pass filters every usable range.
 pub(super) fn filtered(recording: &Recording) -> Stroked<'_> {
-    let sections = butterworth_high_pass(4, HIGH_PASS, recording.rate);
     let n_settle = (SETTLE_SECS * recording.rate.0) as usize;
     let mut settled = recording.clone();
     settled.usable.clear();
     let mut signals = Vec::new();
     for usable in recording.usable.iter().filter(|u| u.len() > n_settle) {
-        let part = &recording.acceleration_mps2[usable.clone()];
-        let mean = part.iter().sum::<f64>() / part.len() as f64;
-        let mut signal: Vec<f64> = part.iter().map(|x| x - mean).collect();
-        filter(&sections, &mut signal);
+        let signal = high_passed(&recording.acceleration_mps2[usable.clone()], recording.rate);
         signals.push((usable.clone(), signal));
         settled.usable.push(usable.start + n_settle..usable.end);
     }
     Stroked { recording, signals, segmentation: segment(&settled, MIN_PIECE_SECS) }
+}
+
+/// Returns a signal without its mean and what lies below [`HIGH_PASS`], filtered in one forward pass. The spectrum does
+/// not depend on the phase, and above twice the cutoff the delay is only a few milliseconds.
+pub(super) fn high_passed(signal: &[f64], rate: Hertz) -> Vec<f64> {
+    let mean = signal.iter().sum::<f64>() / signal.len() as f64;
+    let mut signal: Vec<f64> = signal.iter().map(|x| x - mean).collect();
+    filter(&butterworth_high_pass(4, HIGH_PASS, rate), &mut signal);
+    signal
 }
 
 /// Returns the model rate to which a recording's rate agrees within clock error, and otherwise the rate itself. Such a

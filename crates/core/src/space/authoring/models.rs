@@ -23,6 +23,14 @@ pub struct Models {
     /// One entry per texture with a position, in the order of the space's sites.
     sites: Vec<Sampled>,
     field: Field,
+    /// Index of each texture in `sites`, by its library index.
+    site_of: Vec<Option<usize>>,
+    /// Whether a texture has a relief.
+    has_relief: bool,
+    /// Whether a texture has stick-slip friction.
+    has_stick_slip: bool,
+    /// Whether a texture is rotated on the pad.
+    is_turned: bool,
     /// Height maps of the sites; `None` if no texture has one.
     height_maps: Option<CommonTile>,
 }
@@ -131,7 +139,20 @@ impl Models {
             sites.iter().zip(space.sites()).map(|(site, (_, at))| site.at(*at)).collect();
         let field = Field::new(&at_places).ok_or(ModelsError::Degenerate)?;
         let height_maps: Vec<_> = sites.iter().map(|site| site.height_map.clone()).collect();
-        Ok(Self { sampling, sites, field, height_maps: CommonTile::new(&height_maps) })
+        let mut site_of = vec![None; layers.len()];
+        for (index, site) in sites.iter().enumerate() {
+            site_of[site.texture] = Some(index);
+        }
+        Ok(Self {
+            has_relief: sites.iter().any(|site| site.relief.is_some()),
+            has_stick_slip: sites.iter().any(|site| site.stick_slip.is_some()),
+            is_turned: sites.iter().any(|site| site.turn_rad != 0.0),
+            height_maps: CommonTile::new(&height_maps),
+            sampling,
+            sites,
+            field,
+            site_of,
+        })
     }
 
     /// Prepares the height maps of all textures, which takes some time, so that their sums take little. Without this, the
@@ -156,7 +177,7 @@ impl Models {
 
     /// Weighted sum of the textures' reliefs; `None` if no texture has one.
     pub(super) fn relief(&self, parents: &[(usize, f64)]) -> Option<Arc<Relief>> {
-        if self.sites.iter().all(|site| site.relief.is_none()) {
+        if !self.has_relief {
             return None;
         }
         let parts: Vec<_> =
@@ -171,7 +192,7 @@ impl Models {
             return alone.height_map.clone();
         }
         let part = |(texture, weight): &(usize, f64)| {
-            let map = self.sites.iter().position(|site| site.texture == *texture)?;
+            let map = self.site_index(*texture)?;
             Some(TilePart { map, weight: *weight, turn_rad: self.sites[map].turn_rad - axes.turn_rad })
         };
         let parts: Vec<TilePart> = parents.iter().filter_map(part).collect();
@@ -180,7 +201,7 @@ impl Models {
 
     /// Mean parameters of stick-slip friction; `None` if no texture has it.
     pub(super) fn stick_slip(&self, parents: &[(usize, f64)]) -> Option<StickSlip> {
-        if self.sites.iter().all(|site| site.stick_slip.is_none()) {
+        if !self.has_stick_slip {
             return None;
         }
         match self.alone(parents) {
@@ -193,7 +214,7 @@ impl Models {
 
     /// Mean axes of the textures that depend on the direction of the stroke; those of the pad if there are none.
     pub(super) fn axes(&self, parents: &[(usize, f64)]) -> MeanAxes {
-        if self.sites.iter().all(|site| site.turn_rad == 0.0) {
+        if !self.is_turned {
             return MeanAxes::at(0.0);
         }
         if let Some(alone) = self.alone(parents) {
@@ -243,9 +264,13 @@ impl Models {
         self.sampling.nodes_of_frequencies(&lsf, &ln_level)
     }
 
+    fn site_index(&self, texture: usize) -> Option<usize> {
+        self.site_of.get(texture).copied().flatten()
+    }
+
     /// Texture with this library index.
     fn site(&self, texture: usize) -> Option<&Sampled> {
-        self.sites.iter().find(|site| site.texture == texture)
+        self.site_index(texture).map(|index| &self.sites[index])
     }
 
     /// Textures with these library indices and weights.

@@ -23,7 +23,8 @@ pub struct Adjective {
     pub ratings: Vec<Average>,
     /// Agreement of the raters.
     pub agreement: Result<Agreement, AgreementError>,
-    /// Fitted line in the perceptual space, which has the direction of the pair.
+    /// Fitted line in the perceptual space, which has the direction of the pair; without sorts,
+    /// [`PropertyError::NoConfiguration`].
     pub line: Result<PropertyLine, PropertyError>,
 }
 
@@ -31,11 +32,6 @@ impl Adjective {
     /// Index and mean rating of each rated texture.
     pub fn rated(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.ratings.iter().enumerate().filter_map(|(texture, average)| Some((texture, average.mean?)))
-    }
-
-    /// The line, if the pair is relevant and the fit has succeeded.
-    pub(super) fn usable_line(&self) -> Option<&PropertyLine> {
-        self.line.as_ref().ok().filter(|_| self.is_relevant)
     }
 }
 
@@ -45,12 +41,13 @@ fn words_of(pair: &AdjectivePair) -> [String; 4] {
     [pair.low.clone(), pair.high.clone(), pair.name(), turned.name()]
 }
 
-/// Fits all pairs of the table; `textures` gives the order of the textures and `points` their coordinates.
+/// Fits all pairs of the table; `textures` gives the order of the textures and `points` their coordinates in the perceptual
+/// space, if there are sorts.
 pub(super) fn fit_adjectives(
     table: &RatingTable,
     votes: &[RelevanceVote],
     textures: &[String],
-    points: &[Vec<f64>],
+    points: Option<&[Vec<f64>]>,
     findings: &mut Vec<String>,
 ) -> Result<Vec<Adjective>, SpaceBuildError> {
     let relevances = relevances(votes)?;
@@ -96,20 +93,23 @@ pub(super) fn fit_adjectives(
     let adjectives = table.pairs().iter().enumerate().map(|(index, pair)| {
         let votes: Vec<(f64, bool)> = words_of(pair).iter().filter_map(|word| share(word)).collect();
         let in_table = averages(table, index);
-        let none = Average { n_raters: 0, mean: None, half_width: None };
-        let ratings: Vec<Average> = row_of.iter().map(|row| row.map_or(none, |row| in_table[row])).collect();
-        let (coordinates, means): (Vec<Vec<f64>>, Vec<f64>) = points
-            .iter()
-            .zip(&ratings)
-            .filter_map(|(point, average)| Some((point.clone(), average.mean?)))
-            .unzip();
+        let ratings: Vec<Average> =
+            row_of.iter().map(|row| row.map_or(Average::NONE, |row| in_table[row])).collect();
+        let line = points.map_or(Err(PropertyError::NoConfiguration), |points| {
+            let (coordinates, means): (Vec<Vec<f64>>, Vec<f64>) = points
+                .iter()
+                .zip(&ratings)
+                .filter_map(|(point, average)| Some((point.clone(), average.mean?)))
+                .unzip();
+            fit_property(&coordinates, &means)
+        });
         Adjective {
             pair: pair.clone(),
             relevance: votes.iter().map(|(share, _)| *share).reduce(f64::min),
             is_relevant: votes.iter().all(|(_, kept)| *kept),
             ratings,
             agreement: agreement(table, index),
-            line: fit_property(&coordinates, &means),
+            line,
         }
     });
     let adjectives: Vec<Adjective> = adjectives.collect();
@@ -121,7 +121,9 @@ pub(super) fn fit_adjectives(
                 adjective.pair
             ));
         }
-        if let Err(error) = &adjective.line {
+        if let Err(error) = &adjective.line
+            && points.is_some()
+        {
             findings.push(format!("{} has no direction in the perceptual space: {error}", adjective.pair));
         }
         let n_unrated = adjective.ratings.iter().filter(|a| a.mean.is_none()).count() - unrated.len();

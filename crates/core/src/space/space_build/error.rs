@@ -8,6 +8,7 @@ use crate::people::ratings::{RatingsError, VoteError};
 use crate::people::sorting::SortingError;
 use crate::space::features::FeatureError;
 use crate::space::selection::SelectionError;
+use crate::space::space_build::LEAST_RATED;
 use crate::words::counted;
 
 /// Reasons why no space can be built from the judgments.
@@ -50,6 +51,29 @@ pub enum SpaceBuildError {
         /// "sorted" or "rated".
         what: &'static str,
     },
+    /// No rating is filled in.
+    #[error(
+        "no rating is filled in; enter a number from 0 to 100 for each texture and adjective pair that a participant rated"
+    )]
+    NoRatings,
+    /// Too few textures are rated on both axes, and there are no sorts.
+    #[error(
+        "only {} rated on both axes ({} and {}); a space from ratings alone needs at least {LEAST_RATED}; rate more textures, or choose other axes",
+        if *n_textures == 1 { "1 texture is".to_owned() } else { format!("{n_textures} textures are") },
+        axes[0],
+        axes[1]
+    )]
+    TooFewRated {
+        /// Number of textures rated on both.
+        n_textures: usize,
+        /// Names of the pairs.
+        axes: [String; 2],
+    },
+    /// No two pairs share enough textures, and there are no sorts.
+    #[error(
+        "no two adjective pairs were rated on the same {LEAST_RATED} textures; rate every texture on every adjective pair"
+    )]
+    RatedApart,
     /// No texture was both sorted and rated.
     #[error("no texture was both sorted and rated; provide sorts and ratings of the same textures")]
     NothingShared,
@@ -96,7 +120,7 @@ pub enum SpaceBuildError {
         /// Name of the pair.
         pair: String,
         /// Reason why it cannot be an axis.
-        reason: &'static str,
+        reason: String,
         /// Names of the pairs that can be axes.
         pairs: String,
     },

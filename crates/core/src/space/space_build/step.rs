@@ -12,13 +12,13 @@ pub enum Step {
     Sorting,
     /// Scaling the perceptual space.
     Scaling,
-    /// Fitting the adjective directions.
+    /// Fitting the adjective directions. It is the first step if there are no sorts, and then averages the ratings.
     Adjectives,
     /// Rendering stroke patterns and extracting features.
     Features,
     /// Predicting and validating an axis: 0 or 1.
     Axis(usize),
-    /// Bootstrapping over participants.
+    /// Bootstrapping over participants, if there are sorts.
     Stability,
 }
 

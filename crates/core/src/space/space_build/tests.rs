@@ -1,4 +1,5 @@
 mod degenerate;
+mod rated;
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -91,7 +92,8 @@ fn build_with_votes(
 fn axes_follow_the_labels_of_the_panel_and_features_predict_them() {
     let built = build(judgments(&["rough-smooth", "hard-soft", "sticky-slippery"]), &quick()).unwrap();
     assert_eq!(built.textures.len(), N);
-    assert!(built.perceptual.stress < 0.15 && built.stress.windows(2).all(|w| w[1] <= w[0] + 1e-9));
+    let space = built.perceptual.as_ref().unwrap();
+    assert!(space.configuration.stress < 0.15 && space.stress.windows(2).all(|w| w[1] <= w[0] + 1e-9));
     for (axis, name) in built.axes.iter().zip(["rough-smooth", "hard-soft"]) {
         assert_eq!(axis.pair.name(), name);
         let index = usize::from(name == "hard-soft");
@@ -104,7 +106,7 @@ fn axes_follow_the_labels_of_the_panel_and_features_predict_them() {
         assert!(!prediction.features.is_empty());
         assert!(prediction.predicted.iter().all(|p| (0.0..=100.0).contains(p)));
     }
-    assert!((60.0..120.0).contains(&built.angle_degrees), "{}", built.angle_degrees);
+    assert!((60.0..120.0).contains(&space.angle_degrees), "{}", space.angle_degrees);
     // Random ratings have a poor fit.
     let random = built.adjectives[2].line.as_ref().unwrap();
     assert!(random.r_squared < 0.5 && built.adjectives[0].line.as_ref().unwrap().r_squared > 0.8);
@@ -181,7 +183,8 @@ fn without_the_usual_pairs_the_best_pair_of_each_dimension_is_chosen_and_orthogo
     let mut names = built.axes.each_ref().map(|axis| axis.pair.name());
     names.sort();
     assert_eq!(names, ["dull-sharp", "warm-cold"], "the third pair was rated at random");
-    let across: f64 = built.axes[0].direction.iter().zip(&built.axes[1].direction).map(|(a, b)| a * b).sum();
+    let [first, second] = built.axes.each_ref().map(|axis| axis.direction.as_ref().unwrap());
+    let across: f64 = first.iter().zip(second).map(|(a, b)| a * b).sum();
     assert!(across.abs() < 1e-12);
     assert_eq!(built.positions[5].hard_soft, built.axes[1].prediction.as_ref().unwrap().predicted[5]);
 }
@@ -197,7 +200,7 @@ fn missing_sorts_and_ratings_are_reported_and_tolerated() {
     });
     ratings[0].value = None;
     let built = build((sorts, ratings), &quick()).unwrap();
-    assert_eq!((built.not_sorted, built.textures.len()), (vec!["t13".to_owned()], N - 1));
+    assert_eq!((built.not_placed, built.textures.len()), (vec!["t13".to_owned()], N - 1));
     assert!(built.adjectives[0].ratings[0].mean.is_none());
     assert!(built.n_missing_ratings >= 3);
     let findings = built.findings.join("\n");

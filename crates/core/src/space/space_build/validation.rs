@@ -1,8 +1,10 @@
 //! Validation summary of a space, as sentences.
 
+use crate::maths::statistics::mean;
 use crate::people::mds::{Transform, expected_random_stress};
+use crate::people::ratings::{Agreement, IntraclassCorrelation};
 use crate::space::LabelSource;
-use crate::space::space_build::{Axis, PlacedBy, SpaceBuild, TRUSTED_NESTED_R};
+use crate::space::space_build::{Axis, PerceptualSpace, PlacedBy, SpaceBuild, TRUSTED_NESTED_R};
 use crate::words::counted;
 
 /// R² of an adjective's line below which the fit is called weak: it explains less than half of the variance of the
@@ -12,6 +14,11 @@ const WEAK_R_SQUARED: f64 = 0.5;
 const OBLIQUE_DEGREES: f64 = 15.0;
 /// ICC of the mean rating below which agreement is called poor (Koo and Li 2016).
 const POOR_ICC: f64 = 0.5;
+/// Correlation of the mean ratings on two axes at or above which they are called dependent: they share half of their
+/// variance.
+pub(super) const DEPENDENT_R: f64 = 0.7;
+/// Number of principal components whose variance is stated.
+const N_SHARES: usize = 3;
 /// p-value at or above which a line or a prediction is called not significant.
 const CHANCE: f64 = 0.05;
 
@@ -38,38 +45,43 @@ pub(super) fn least_textures(n_dims: usize) -> usize {
 /// Validation summary of a space, most general sentences first. Warnings about irregularities are in
 /// [`SpaceBuild::findings`].
 pub fn validation_summary(build: &SpaceBuild) -> Vec<String> {
-    let mut said = vec![
-        format!(
-            "{}; source of the judgments: {}{}.",
-            counted(build.textures.len(), "texture"),
-            build.source.label(),
-            if build.source == LabelSource::SimulatedRaters { "; no person felt the textures" } else { "" }
-        ),
-        stress(build),
-        angle(build),
-    ];
+    let mut said = vec![format!(
+        "{}; source of the judgments: {}{}.",
+        counted(build.textures.len(), "texture"),
+        build.source.label(),
+        if build.source == LabelSource::SimulatedRaters { "; no person felt the textures" } else { "" }
+    )];
+    match &build.perceptual {
+        Some(space) => said.extend([stress(build, space), angle(build, space)]),
+        None => said.extend([ratings_alone(build), correlation(build)]),
+    }
+    said.push(components(build));
     for axis in &build.axes {
         said.extend(line(build, axis));
         said.extend(prediction(axis));
     }
     said.extend(stability(build));
-    said.extend(build.axes.iter().map(|axis| place(axis, build.options.placement.is_none())));
+    said.extend(errors(build));
+    said.extend(build.axes.iter().map(|axis| place(build, axis)));
     said
 }
 
 /// Kruskal's word for the stress of a perceptual space; `None` if it does not apply: to a degenerate solution, to
-/// interval scaling, or to a stress that is low because few participants sorted.
+/// interval scaling, to a stress that is low because few participants sorted, or without sorts.
 pub fn stress_in_words(build: &SpaceBuild) -> Option<&'static str> {
-    let is_degenerate = build.degenerate.is_some_and(|degenerate| !degenerate.is_replaced);
+    let space = build.perceptual.as_ref()?;
+    let is_degenerate = space.degenerate.is_some_and(|degenerate| !degenerate.is_replaced);
     let is_metric = build.options.mds.transform == Transform::Interval;
-    let word = kruskal_word(build.perceptual.stress);
-    let is_by_chance = build.similarity.agreements.len() < MIN_SORTERS && word == kruskal_word(0.0);
+    let word = kruskal_word(space.configuration.stress);
+    let is_by_chance = space.similarity.agreements.len() < MIN_SORTERS && word == kruskal_word(0.0);
     (!is_degenerate && !is_metric && !is_by_chance).then_some(word)
 }
 
 /// Mean stress that random dissimilarities without ties give for as many textures and dimensions; with ties it is lower.
-/// `None` outside the range of [`expected_random_stress`], and for interval scaling, to which it does not apply.
+/// `None` outside the range of [`expected_random_stress`], for interval scaling, to which it does not apply, and without
+/// sorts.
 pub fn stress_of_random_data(build: &SpaceBuild) -> Option<f64> {
+    build.perceptual.as_ref()?;
     match build.options.mds.transform {
         Transform::PrimaryTies | Transform::SecondaryTies => {
             expected_random_stress(build.textures.len(), build.options.n_dims)
@@ -79,9 +91,9 @@ pub fn stress_of_random_data(build: &SpaceBuild) -> Option<f64> {
 }
 
 /// Stress of the perceptual space, and the values to compare it with.
-fn stress(build: &SpaceBuild) -> String {
+fn stress(build: &SpaceBuild, space: &PerceptualSpace) -> String {
     let (n_textures, n_dims) = (build.textures.len(), build.options.n_dims);
-    let is_degenerate = build.degenerate.is_some_and(|degenerate| !degenerate.is_replaced);
+    let is_degenerate = space.degenerate.is_some_and(|degenerate| !degenerate.is_replaced);
     let meaning = match stress_in_words(build) {
         _ if n_textures < least_textures(n_dims) => "not meaningful with so few textures".to_owned(),
         Some(word) => match stress_of_random_data(build) {
@@ -96,17 +108,88 @@ fn stress(build: &SpaceBuild) -> String {
         }
         None => "not meaningful with so few participants".to_owned(),
     };
-    format!("Stress of the {n_dims}-dimensional perceptual space: {:.3}, {meaning}.", build.perceptual.stress)
+    format!(
+        "Stress of the {n_dims}-dimensional perceptual space: {:.3}, {meaning}.",
+        space.configuration.stress
+    )
+}
+
+/// What a space from ratings alone consists of, and what it lacks.
+fn ratings_alone(build: &SpaceBuild) -> String {
+    format!(
+        "Built from ratings alone, by {}: the perceived positions are mean ratings. There are no sorts, so there is no perceptual space, and the report lacks stress, adjective directions and their angle.",
+        counted(build.raters.len(), "participant")
+    )
+}
+
+/// Correlation of the mean ratings on the two axes.
+fn correlation(build: &SpaceBuild) -> String {
+    let names = build.axes.each_ref().map(|axis| axis.pair.to_string());
+    match build.axis_correlation {
+        Some(r) => {
+            let are_dependent = r.abs() >= DEPENDENT_R;
+            let meaning = if are_dependent {
+                ": the axes are not independent, although the map draws them at a right angle"
+            } else {
+                ""
+            };
+            format!("The mean ratings on {} and {} correlate with r = {r:.2}{meaning}.", names[0], names[1])
+        }
+        None => format!("The correlation of the mean ratings on {} and {} is unknown.", names[0], names[1]),
+    }
+}
+
+/// Variance that the principal components of the mean ratings explain, and their number.
+fn components(build: &SpaceBuild) -> String {
+    let found = match &build.components {
+        Ok(found) => found,
+        Err(reason) => return format!("No principal components of the mean ratings: {reason}."),
+    };
+    let shares: Vec<String> =
+        found.explained.iter().take(N_SHARES).map(|share| format!("{:.0} %", 100.0 * share)).collect();
+    format!(
+        "The principal components of the mean ratings ({}, {}) explain {} of the variance, the largest first; parallel analysis finds {}.",
+        counted(found.pairs.len(), "adjective pair"),
+        counted(found.n_textures, "texture"),
+        shares.join(", "),
+        counted(found.n_dims, "dimension")
+    )
+}
+
+/// Root mean square over the textures of the standard errors of the mean ratings on each axis, in points; `None` with
+/// sorts, whose positions are projections, and if no texture has two raters.
+pub fn position_errors(build: &SpaceBuild) -> Option<[f64; 2]> {
+    if build.perceptual.is_some() {
+        return None;
+    }
+    let [first, second] = build.axes.each_ref().map(|axis| {
+        let ratings = &build.adjectives[axis.adjective].ratings;
+        let squares: Vec<f64> =
+            ratings.iter().filter_map(|average| average.standard_error).map(|error| error * error).collect();
+        (!squares.is_empty()).then(|| mean(&squares).sqrt())
+    });
+    Some([first?, second?])
+}
+
+fn errors(build: &SpaceBuild) -> Option<String> {
+    let [first, second] = position_errors(build)?;
+    Some(format!(
+        "Standard errors of the mean ratings: {first:.1} points of 100 on {} and {second:.1} on {} (root mean square over textures).",
+        build.axes[0].pair, build.axes[1].pair
+    ))
 }
 
 /// Kind of positions on an axis, and the reason if the choice was automatic.
-fn place(axis: &Axis, is_chosen_here: bool) -> String {
+fn place(build: &SpaceBuild, axis: &Axis) -> String {
     let pair = &axis.pair;
+    let is_rated_alone = build.perceptual.is_none();
     let place = match axis.placed_by {
+        PlacedBy::Felt if is_rated_alone => "mean ratings",
         PlacedBy::Felt => "perceived positions, computed from the judgments",
         PlacedBy::Predicted => "positions predicted from features, by models trained on the same textures",
     };
     let nested_r = axis.prediction.as_ref().map(|prediction| prediction.validation.nested_cv_r);
+    let is_chosen_here = build.options.placement.is_none() && !is_rated_alone;
     let why = match (is_chosen_here, nested_r) {
         (false, _) => String::new(),
         (true, None) => ", because there is no prediction".to_owned(),
@@ -120,9 +203,9 @@ fn place(axis: &Axis, is_chosen_here: bool) -> String {
     format!("{pair}: {place}{why}.")
 }
 
-fn angle(build: &SpaceBuild) -> String {
+fn angle(build: &SpaceBuild, space: &PerceptualSpace) -> String {
     let names = build.axes.each_ref().map(|axis| axis.pair.to_string());
-    let degrees = build.angle_degrees;
+    let degrees = space.angle_degrees;
     let meets = format!(
         "The directions of {} and {} in the perceptual space form an angle of {degrees:.1}°",
         names[0], names[1]
@@ -139,6 +222,12 @@ fn angle(build: &SpaceBuild) -> String {
 /// Fit of the mean ratings of an axis in the perceptual space, and agreement of the raters.
 fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
     let adjective = &build.adjectives[axis.adjective];
+    if build.perceptual.is_none() {
+        return Some(match &adjective.agreement {
+            Ok(agreement) => reliability(axis, agreement),
+            Err(reason) => format!("{}: inter-rater agreement is unknown ({reason}).", axis.pair),
+        });
+    }
     let line = adjective.line.as_ref().ok()?;
     let weak = if line.r_squared < WEAK_R_SQUARED { ", a weak fit" } else { "" };
     let agreement = adjective.agreement.as_ref().map_or_else(
@@ -161,6 +250,23 @@ fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
         "{}: R² of the ratings in the perceptual space {:.2}{weak}{luck}; {agreement}.",
         axis.pair, line.r_squared
     ))
+}
+
+/// Agreement of the raters on an axis, with intervals.
+fn reliability(axis: &Axis, agreement: &Agreement) -> String {
+    let interval = |of: &IntraclassCorrelation| {
+        let limit = |value: f64| if value < 0.0 { "below 0".to_owned() } else { format!("{value:.2}") };
+        format!("{} (95 % interval {} to {})", limit(of.value), limit(of.low), limit(of.high))
+    };
+    let poor = if agreement.average.value < POOR_ICC { ", poor" } else { "" };
+    format!(
+        "{}: Cronbach's alpha over {} and {} with complete ratings {}; absolute agreement (ICC of the mean rating) {}{poor}.",
+        axis.pair,
+        counted(agreement.participants.len(), "rater"),
+        counted(agreement.textures.len(), "texture"),
+        interval(&agreement.alpha),
+        interval(&agreement.average),
+    )
 }
 
 /// Bootstrap stability of the perceived positions.

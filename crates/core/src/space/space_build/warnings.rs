@@ -3,13 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::people::mds::{Mds, Transform};
-use crate::people::ratings::{OUTLIER_LIMIT, RaterFit, RatingTable};
+use crate::people::ratings::{OUTLIER_LIMIT, REVERSED_LIMIT, RaterFit, RatingTable};
 use crate::people::sorting::{Finding, Similarity, Sort};
 use crate::space::SpacePoint;
 use crate::space::selection::MIN_TEXTURES;
-use crate::space::space_build::validation::{MIN_SORTERS, least_textures};
-use crate::space::space_build::{Axis, DegenerateScaling, SpaceData, SpaceOptions};
-use crate::words::counted;
+use crate::space::space_build::axis_choice::{RELIABLE_ALPHA, is_reliable};
+use crate::space::space_build::validation::{DEPENDENT_R, MIN_SORTERS, least_textures};
+use crate::space::space_build::{Adjective, Axis, DegenerateScaling, SpaceData, SpaceOptions};
+use crate::words::{counted, listed};
 
 /// Maximum number of findings of one kind that are listed; the others are only counted.
 const N_SAID: usize = 3;
@@ -19,6 +20,9 @@ const ONE_LINE_DEGREES: f64 = 20.0;
 
 /// Distance, in points of 100, below which two textures count as coincident.
 const COINCIDENT: f64 = 0.5;
+
+/// Minimum number of raters; with fewer, a standard error has less than four degrees of freedom.
+const MIN_RATERS: usize = 5;
 
 /// Minimum median distance relative to the largest distance; a smaller value indicates a collapsed space.
 const COLLAPSED: f64 = 0.05;
@@ -76,22 +80,97 @@ pub(super) fn of_ratings(raters: &[(String, RaterFit)], table: &RatingTable) -> 
         let missing = counted(table.n_missing(), "rating");
         said.push(format!("missing: {missing}; averages use only the ratings given"));
     }
+    let on_pairs = |of: fn(&RaterFit) -> &Vec<usize>| -> Vec<String> {
+        let with_some = raters.iter().filter(|(_, fit)| !of(fit).is_empty());
+        with_some
+            .map(|(name, fit)| {
+                let pairs: Vec<String> =
+                    of(fit).iter().map(|pair| table.pairs()[*pair].to_string()).collect();
+                format!("{name} ({})", listed(&pairs))
+            })
+            .collect()
+    };
+    let constant = on_pairs(|fit| &fit.constant_pairs);
+    if !constant.is_empty() {
+        said.push(format!(
+            "ratings: participants who gave all textures the same rating on a pair (not excluded): {}",
+            listed(&constant)
+        ));
+    }
+    let reversed = on_pairs(|fit| &fit.reversed_pairs);
+    if !reversed.is_empty() {
+        said.push(format!(
+            "ratings: participants whose correlation with the mean of the others on a pair is below {REVERSED_LIMIT}, as with swapped poles (not corrected; check the table): {}",
+            listed(&reversed)
+        ));
+    }
     said
 }
 
-/// Warnings about the axes and their predictions.
-pub(super) fn of_axes(axes: &[Axis; 2], angle_degrees: f64) -> Vec<String> {
-    let mut said = Vec::new();
-    if !(ONE_LINE_DEGREES..=180.0 - ONE_LINE_DEGREES).contains(&angle_degrees) {
-        said.push(format!(
+/// Warning about two directions that are nearly parallel.
+pub(super) fn of_angle(axes: &[Axis; 2], angle_degrees: f64) -> Option<String> {
+    let is_oblique = !(ONE_LINE_DEGREES..=180.0 - ONE_LINE_DEGREES).contains(&angle_degrees);
+    is_oblique.then(|| {
+        format!(
             "{} and {} are nearly parallel in the perceptual space ({angle_degrees:.1}°); choose another axis",
             axes[0].pair, axes[1].pair
-        ));
-    }
-    if axes.iter().any(|axis| axis.prediction.is_none()) {
-        said.push(format!(
+        )
+    })
+}
+
+/// Warning about axes that are not predicted.
+pub(super) fn of_prediction(axes: &[Axis; 2]) -> Option<String> {
+    axes.iter().any(|axis| axis.prediction.is_none()).then(|| {
+        format!(
             "{} textures are too few to predict an axis from features; use at least {MIN_TEXTURES}, preferably 25",
             axes[0].felt.len()
+        )
+    })
+}
+
+/// Warnings about positions that are mean ratings.
+pub(super) fn of_mean_ratings(
+    axes: &[Axis; 2],
+    adjectives: &[Adjective],
+    axis_correlation: Option<f64>,
+    n_raters: usize,
+    not_placed: &[String],
+) -> Vec<String> {
+    let mut said = Vec::new();
+    if n_raters == 1 {
+        said.push(
+            "only one participant rated: neither the agreement between raters nor the standard errors of the positions are known; ten participants are usual".to_owned(),
+        );
+    } else if n_raters < MIN_RATERS {
+        said.push(format!(
+            "only {n_raters} participants rated: the standard errors of the positions are uncertain; ten participants are usual"
+        ));
+    }
+    if !not_placed.is_empty() {
+        said.push(format!("not rated on both axes, so without a position: {}", not_placed.join(", ")));
+    }
+    for axis in axes {
+        let adjective = &adjectives[axis.adjective];
+        let alpha = adjective.agreement.as_ref().ok().map(|agreement| agreement.alpha.value);
+        if let Some(alpha) = alpha.filter(|_| !is_reliable(adjective)) {
+            said.push(format!(
+                "{}: the mean ratings are unreliable (Cronbach's alpha {alpha:.2}, below {RELIABLE_ALPHA}), so positions on this axis depend on who rated",
+                axis.pair
+            ));
+        }
+        let n_single = adjective.ratings.iter().filter(|average| average.n_raters == 1).count();
+        if n_single > 0 && n_raters > 1 {
+            said.push(format!(
+                "{}: {} with a single rating, so without a standard error",
+                axis.pair,
+                counted(n_single, "texture")
+            ));
+        }
+    }
+    if let Some(r) = axis_correlation.filter(|r| r.abs() >= DEPENDENT_R) {
+        said.push(format!(
+            "{} and {} correlate with r = {r:.2}, so they measure nearly the same; choose another axis",
+            axes[0].pair, axes[1].pair
         ));
     }
     said

@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use super::co_occurrence::co_occurrence;
 use super::spectrum::spectral;
 use super::wavelets::haar_energies;
-use super::{N_FEATURES, PictureError, SIDE, features, square};
+use super::{N_FEATURES, PictureError, SIDE, features, square, views};
 use crate::maths::rng::lcg_noise;
 use crate::surfaces::shading::Picture;
 
@@ -43,6 +43,32 @@ fn a_square_is_the_mean_of_what_it_covers() {
     let mut cut = picture(16, 16, |_, _| [0; 3]);
     cut.rgb.pop();
     assert_eq!(square(&cut), Err(PictureError::Bytes { n: 767, expected: 768 }));
+}
+
+#[test]
+fn views_are_the_square_and_its_quarters() {
+    // 500 x 448: each quarter has exactly the size of a view, so nothing is resampled.
+    let large = picture(500, 448, |x, y| [(x % 256) as u8, (y % 256) as u8, ((x + y) % 256) as u8]);
+    let [whole, quarters @ ..] = views(&large).unwrap();
+    assert_eq!(whole, square(&large).unwrap());
+    for (quarter, (left, top)) in quarters.iter().zip([(26, 0), (250, 0), (26, 224), (250, 224)]) {
+        for (x, y) in [(0, 0), (100, 7), (223, 223)] {
+            let expected = [left + x, top + y, left + x + top + y].map(|value| (value % 256) as f32 / 255.0);
+            let pixel = &quarter.rgb[3 * (y * SIDE + x)..][..3];
+            assert!(pixel.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-6), "{pixel:?} {expected:?}");
+        }
+    }
+    // Few pixels are interpolated: a linear ramp stays linear between the centers of the outer pixels.
+    let [small, ..] = views(&picture(100, 100, |x, _| [2 * x as u8; 3])).unwrap();
+    for x in 2..SIDE - 2 {
+        let expected = 2.0 * ((x as f32 + 0.5) * 100.0 / SIDE as f32 - 0.5) / 255.0;
+        assert!((small.rgb[3 * (50 * SIDE + x)] - expected).abs() < 1e-5, "{x}");
+    }
+    let tiny = views(&picture(17, 16, |_, _| [9, 90, 200])).unwrap();
+    for view in &tiny {
+        assert!(view.rgb.chunks_exact(3).all(|pixel| (pixel[1] - 90.0 / 255.0).abs() < 1e-6));
+    }
+    assert_eq!(views(&picture(15, 99, |_, _| [0; 3])), Err(PictureError::TooSmall { width: 15, height: 99 }));
 }
 
 #[test]

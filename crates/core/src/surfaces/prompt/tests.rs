@@ -35,14 +35,16 @@ fn lexicon() -> Lexicon {
         (&["red"], Meaning::Color([200, 20, 20])),
         (&["white"], Meaning::Color([250, 250, 250])),
         (&["dark"], Meaning::Shade(Shade { lightness: -0.4, saturation: 0.0 })),
+        (&["light"], Meaning::Shade(Shade { lightness: 0.3, saturation: 0.0 })),
         (&["fine"], Meaning::Size(0.5)),
         (&["very"], Meaning::Degree { weight: 2.0, reach: 0.3 }),
         (&["slightly"], Meaning::Degree { weight: 0.5, reach: -0.5 }),
         (&["not", "isnt"], Meaning::Negation),
-        (&["a", "is", "like", "surface", "and"], Meaning::Filler),
+        (&["a", "is", "like", "surface", "and", "of", "on", "in", "photo", "sketch"], Meaning::Filler),
     ];
-    let words = |words: &[&str]| words.iter().map(|word| (*word).to_owned()).collect();
-    Lexicon::new(entries.into_iter().map(|(of, meaning)| (words(of), meaning)).collect()).unwrap()
+    let words = |words: &[&str]| -> Vec<String> { words.iter().map(|word| (*word).to_owned()).collect() };
+    let lexicon = Lexicon::new(entries.into_iter().map(|(of, meaning)| (words(of), meaning)).collect());
+    lexicon.unwrap().with_depictions(words(&["light", "photo", "sketch"])).unwrap()
 }
 
 fn of(prompt: &str) -> PromptInterpretation {
@@ -78,6 +80,38 @@ fn degrees_and_negations_go_with_the_next_word() {
     assert!(two.words[0].is_denied && !two.words[1].is_denied);
     assert_eq!(of("not a carpet").looks.like, None);
     assert_eq!(mean("not not rough"), 14.0);
+}
+
+#[test]
+fn adjectives_of_a_picture_or_of_light_say_nothing_about_the_surface() {
+    for prompt in [
+        "a rough sketch of steel",
+        "soft light on steel",
+        "rough photos of steel",
+        "very soft light on steel",
+        "soft red light on steel",
+        "steel in soft light",
+        "steel, soft light, smooth photo",
+        "not soft light on steel",
+    ] {
+        let understood = of(prompt);
+        assert_eq!(understood.attributes, of("steel").attributes, "{prompt}");
+        assert_eq!(understood.looks.color_srgb, Some([150, 110, 90]), "{prompt}");
+    }
+    assert_eq!(of("very soft light on rough steel").attributes, of("rough steel").attributes);
+    // Adjectives of the surface.
+    for (prompt, plain) in [
+        ("soft light steel", "soft steel"),
+        ("soft light red steel", "soft steel"),
+        ("a steel that is soft and light", "soft steel"),
+        ("soft light and smooth steel", "soft smooth steel"),
+        ("soft, light on steel", "soft steel"),
+        ("a soft light", "soft"),
+        ("a rough sketch", "rough"),
+        ("rough surface photo", "rough"),
+    ] {
+        assert_eq!(of(prompt).attributes, of(plain).attributes, "{prompt}");
+    }
 }
 
 #[test]

@@ -49,8 +49,9 @@ fn a_degenerate_solution_is_replaced_and_never_called_nearly_perfect() {
         build((sorts_into_clusters(), ratings.clone()), &options).unwrap()
     };
     let stated = built(Some(Transform::PrimaryTies));
-    let signs = stated.degenerate.filter(|degenerate| !degenerate.is_replaced).unwrap().signs;
-    assert!(signs.n_coincident > 0 && stated.perceptual.stress < 0.01, "{signs:?}");
+    let space = stated.perceptual.as_ref().unwrap();
+    let signs = space.degenerate.filter(|degenerate| !degenerate.is_replaced).unwrap().signs;
+    assert!(signs.n_coincident > 0 && space.configuration.stress < 0.01, "{signs:?}");
     let said = validation_summary(&stated).join("\n");
     assert!(said.contains("not meaningful, because the solution is degenerate"), "{said}");
     assert!(!said.contains("nearly perfect") && stress_in_words(&stated).is_none(), "{said}");
@@ -59,17 +60,18 @@ fn a_degenerate_solution_is_replaced_and_never_called_nearly_perfect() {
     assert!(findings.contains("unreliable; use interval scaling, or sorts into more groups"), "{findings}");
 
     let replaced = built(None);
-    assert!(replaced.degenerate.is_some_and(|degenerate| degenerate.is_replaced));
+    let space = replaced.perceptual.as_ref().unwrap();
+    assert!(space.degenerate.is_some_and(|degenerate| degenerate.is_replaced));
     assert_eq!(replaced.options.mds.transform, Transform::Interval);
     let said = validation_summary(&replaced).join("\n");
     assert!(said.contains("from interval scaling, to which Kruskal's criteria do not apply"), "{said}");
     assert!(replaced.findings.join("\n").contains("interval scaling was used instead"));
     assert_eq!(stress_of_random_data(&replaced), None);
     // Only the most similar textures may coincide.
-    let lowest = replaced.shepard[0].dissimilarity;
-    let different = replaced.shepard.iter().filter(|pair| pair.dissimilarity > lowest);
+    let lowest = space.shepard[0].dissimilarity;
+    let different = space.shepard.iter().filter(|pair| pair.dissimilarity > lowest);
     let nearest = different.map(|pair| pair.distance).fold(f64::INFINITY, f64::min);
-    let farthest = replaced.shepard.iter().map(|pair| pair.distance).fold(0.0, f64::max);
+    let farthest = space.shepard.iter().map(|pair| pair.distance).fold(0.0, f64::max);
     assert!(nearest > 1e-3 * farthest, "{nearest} of {farthest}");
 }
 
@@ -88,7 +90,8 @@ fn a_remedy_that_was_tried_is_not_advised() {
 #[test]
 fn a_good_solution_stays_nonmetric_and_its_stress_has_a_word() {
     let built = build(judgments(&["rough-smooth", "hard-soft"]), &quick()).unwrap();
-    assert_eq!((built.degenerate, built.options.mds.transform), (None, Transform::PrimaryTies));
+    let degenerate = built.perceptual.as_ref().unwrap().degenerate;
+    assert_eq!((degenerate, built.options.mds.transform), (None, Transform::PrimaryTies));
     let stated = SpaceOptions { transform: Some(Transform::PrimaryTies), ..quick() };
     assert_eq!(
         build(judgments(&["rough-smooth", "hard-soft"]), &stated).unwrap().perceptual,
