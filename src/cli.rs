@@ -81,6 +81,7 @@ mod spatial_make;
 mod spatial_reconstruct;
 mod stroke;
 mod stroke_args;
+mod stroke_recordings;
 mod sweep_checks;
 mod target;
 mod terminal_line;

@@ -12,7 +12,7 @@ use shagreen_core::words::counted;
 use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::picture::{Picture, decode, photo_pixels};
-use shagreen_formats::texture_files::read_texture_files;
+use shagreen_formats::texture_files::{TextureFileKind, read_texture_files};
 use shagreen_learn::picture_model::PictureModel;
 use shagreen_learn::picture_set::Seen;
 
@@ -114,7 +114,7 @@ impl PictureArgs {
     /// left out, with a warning.
     fn files(&self, library: &Library) -> anyhow::Result<Vec<(usize, PathBuf)>> {
         let Some(table) = &self.pictures else { return Ok(Vec::new()) };
-        let read = read_texture_files(&file::read_file(table, FileKind::Table)?, "picture");
+        let read = read_texture_files(&file::read_file(table, FileKind::Table)?, TextureFileKind::Picture);
         let folder = file::folder_of(table);
         let mut files = Vec::new();
         let mut n_without_place = vec![0; library.textures.len()];

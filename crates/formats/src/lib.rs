@@ -68,7 +68,6 @@ pub mod quality_model;
 pub mod questionnaire;
 pub mod ratings_csv;
 pub mod recording;
-pub mod recordings_csv;
 pub mod rig_settings;
 pub mod settings;
 pub mod signal;

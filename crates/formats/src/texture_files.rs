@@ -14,6 +14,33 @@ use std::collections::HashMap;
 
 use crate::named_table::{NamedTable, NamedTableError};
 
+/// What the files of a table are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TextureFileKind {
+    /// Pictures of the surface.
+    Picture,
+    /// Recordings of strokes.
+    Recording,
+}
+
+impl TextureFileKind {
+    /// Name of the column of the files, if it is not `file`.
+    fn column(self) -> &'static str {
+        match self {
+            Self::Picture => "picture",
+            Self::Recording => "recording",
+        }
+    }
+
+    /// Columns that an empty table needs.
+    fn wanted(self) -> &'static str {
+        match self {
+            Self::Picture => "texture, file",
+            Self::Recording => "texture, recording",
+        }
+    }
+}
+
 /// A file of a texture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TextureFile {
@@ -46,12 +73,16 @@ pub enum TextureFilesError {
     },
 }
 
-/// Reads a table of files; `what` says what they are, in one word, such as "picture".
+/// Reads a table of files.
 ///
 /// # Errors
 /// See [`TextureFilesError`].
-pub fn read_texture_files(bytes: &[u8], what: &'static str) -> Result<Vec<TextureFile>, TextureFilesError> {
-    let table = NamedTable::read(bytes, "texture, file", what)?;
+pub fn read_texture_files(
+    bytes: &[u8],
+    kind: TextureFileKind,
+) -> Result<Vec<TextureFile>, TextureFilesError> {
+    let what = kind.column();
+    let table = NamedTable::read(bytes, kind.wanted(), what)?;
     let texture_column = table.need(&["texture", "texture_id", "id"])?;
     let file_column = table.need(&[what, "file"])?;
     let mut files = Vec::new();
@@ -69,19 +100,47 @@ pub fn read_texture_files(bytes: &[u8], what: &'static str) -> Result<Vec<Textur
 
 #[cfg(test)]
 mod tests {
-    use super::{TextureFile, read_texture_files};
+    use super::{TextureFile, TextureFileKind, TextureFilesError, read_texture_files};
+
+    fn expected(texture: &str, file: &str, line: u64) -> TextureFile {
+        TextureFile { texture: texture.to_owned(), file: file.to_owned(), line }
+    }
+
+    #[test]
+    fn each_row_is_a_recording() {
+        for table in [
+            "texture,recording\ncork,cork 1.csv\n\nfelt,more/felt.wav\n",
+            "Texture ID;File;Note\ncork;cork 1.csv;slow\n\nfelt;more/felt.wav;\n",
+        ] {
+            assert_eq!(
+                read_texture_files(table.as_bytes(), TextureFileKind::Recording).unwrap(),
+                [expected("cork", "cork 1.csv", 2), expected("felt", "more/felt.wav", 4)]
+            );
+        }
+    }
+
+    #[test]
+    fn what_names_no_recordings_is_refused_with_its_line() {
+        let read = |table: &str| read_texture_files(table.as_bytes(), TextureFileKind::Recording);
+        let check = |table: &str, words: &str| {
+            let message = read(table).unwrap_err().to_string();
+            assert!(message.contains(words), "{message}");
+        };
+        check("", "no rows");
+        check("texture,rating\ncork,4\n", "\"recording\" or \"file\"");
+        check("texture,recording\ncork,\n", "line 2 has no recording");
+        check("texture,recording\n,a.csv\n", "line 2 has no texture");
+        let twice = read("texture,recording\ncork,a.csv\nfelt,a.csv\n").unwrap_err();
+        let file = "a.csv".to_owned();
+        assert_eq!(twice, TextureFilesError::Twice { what: "recording", file, first: 2, line: 3 });
+    }
 
     #[test]
     fn each_row_is_a_file() {
-        let expected = |texture: &str, file: &str, line: u64| TextureFile {
-            texture: texture.to_owned(),
-            file: file.to_owned(),
-            line,
-        };
         for head in ["texture,picture", "id,file,note", "Texture ID,Picture"] {
             let more = if head.contains("note") { ",mine" } else { "" };
             let text = format!("{head}\ncork,a.jpg{more}\n\ncork,\"b, c.tif\"{more}\nfelt,sub/d.png{more}\n");
-            let read = read_texture_files(text.as_bytes(), "picture").unwrap();
+            let read = read_texture_files(text.as_bytes(), TextureFileKind::Picture).unwrap();
             let files = [
                 expected("cork", "a.jpg", 2),
                 expected("cork", "b, c.tif", 4),
@@ -94,7 +153,8 @@ mod tests {
     #[test]
     fn what_cannot_be_used_says_where() {
         let check = |text: &str, words: &str| {
-            let message = read_texture_files(text.as_bytes(), "picture").unwrap_err().to_string();
+            let message =
+                read_texture_files(text.as_bytes(), TextureFileKind::Picture).unwrap_err().to_string();
             assert!(message.contains(words), "{message}");
         };
         check("", "one row per picture");

@@ -96,7 +96,7 @@ impl BackboneKind {
         }
     }
 
-    /// Returns the number of late features per picture ([`Backbone::late_features`]).
+    /// Returns how many features [`Backbone::late_features`] gives for a picture.
     pub fn n_late_features(self) -> usize {
         match self {
             Self::EfficientnetLite0 => efficientnet::N_LATE,

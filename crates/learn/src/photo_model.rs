@@ -34,7 +34,7 @@ struct About {
     /// Metadata of the heads trained on drawn materials.
     drawn: picture_model::About,
     classes: Vec<MaterialClass>,
-    /// Number of late features.
+    /// Number of features that the heads for photos use.
     n_features: usize,
     has_ridge: bool,
     n_networks: usize,

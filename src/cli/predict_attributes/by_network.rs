@@ -5,8 +5,7 @@ use std::path::Path;
 use anyhow::Context as _;
 use serde_json::json;
 use shagreen_core::maths::gaussian_process::Estimate;
-use shagreen_core::recording::Recording;
-use shagreen_core::recording::fit::{self, Stroke};
+use shagreen_core::recording::fit::Stroke;
 use shagreen_core::texture::patterns::{PAPER_FORCES_N, PAPER_RATE, PAPER_SPEEDS_MM_PER_S};
 use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::recording::ColumnMap;
@@ -16,7 +15,7 @@ use shagreen_learn::stroke_model::StrokeModel;
 
 use crate::cli::output;
 use crate::cli::predict_attributes::{Args, Attribute, UNIFORM_DEVIATION, as_json, table_text};
-use crate::cli::recording_source::{read_recording_file, read_recording_files, read_three_axis_file};
+use crate::cli::stroke_recordings::StrokeRecordings;
 use shagreen_studio::file;
 
 /// Predicts the attributes of the recordings with a network trained on strokes. The standard deviations are its
@@ -24,16 +23,8 @@ use shagreen_studio::file;
 pub(super) fn predict_by_network(args: &Args, path: &Path, map: &ColumnMap) -> anyhow::Result<()> {
     let bytes = file::read_file(path, FileKind::Network)?;
     let (network, card) = StrokeModel::from_bytes(&bytes).with_context(|| file::in_file(path))?;
-    let (recordings, strokes) = if network.architecture().n_axes() == 1 {
-        let recordings = read_recording_files(&args.recording, map, read_recording_file)?;
-        let strokes = fit::strokes(&recordings, PAPER_RATE);
-        (recordings, strokes)
-    } else {
-        let recordings = read_recording_files(&args.recording, map, read_three_axis_file)?;
-        let strokes = fit::three_axis_strokes(&recordings, PAPER_RATE);
-        (recordings.iter().map(|recording| recording.recording().clone()).collect(), strokes)
-    };
-    let strokes = strokes.with_context(|| file::in_file(&args.recording[0]))?;
+    let recordings = StrokeRecordings::read(&args.recording, map, network.architecture().n_axes() != 1)?;
+    let strokes = recordings.strokes().with_context(|| file::in_file(&args.recording[0]))?;
     let predicted = network.predict(&strokes)?.with_context(|| {
         let least = network.architecture().n_samples as f64 / PAPER_RATE.0;
         format!(
@@ -77,7 +68,7 @@ fn cautions(card: &ModelCard) -> Vec<String> {
 }
 
 /// Warns of strokes outside the training range of the network: the standard deviations do not show it.
-fn warn_of_unknown(card: &ModelCard, recordings: &[Recording], strokes: &[Stroke]) {
+fn warn_of_unknown(card: &ModelCard, recordings: &StrokeRecordings, strokes: &[Stroke]) {
     let ends = |values: [f64; 5]| [values[0], values[4]];
     // Networks of earlier versions were trained on the strokes of the paper.
     let (speed_mm_per_s, force_n) = match &card.extent {
@@ -100,10 +91,10 @@ fn warn_of_unknown(card: &ModelCard, recordings: &[Recording], strokes: &[Stroke
             "{percent:.0} % of the samples lie outside the range of speeds and forces on which the network was trained ({slowest:.0} to {fastest:.0} mm/s, {weakest:.1} to {strongest:.1} N); its standard deviations are not valid there"
         ));
     }
-    if let Some(recording) = recordings.iter().find(|recording| recording.rate.0 < 0.999 * PAPER_RATE.0) {
+    if let Some((_, rate_hz)) = recordings.low_rates_hz().first() {
         output::warn(&format!(
-            "the network was trained at {} Hz; a recording at {:.0} Hz lacks the highest frequencies",
-            PAPER_RATE.0, recording.rate.0
+            "the network was trained at {} Hz; a recording at {rate_hz:.0} Hz lacks the highest frequencies",
+            PAPER_RATE.0
         ));
     }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail, ensure};
 use shagreen_core::maths::rng::derive_seed;
-use shagreen_core::recording::fit::{self, Stroke};
+use shagreen_core::recording::fit::Stroke;
 use shagreen_core::texture::patterns::{
     PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns, render_patterns,
 };
@@ -13,12 +13,12 @@ use shagreen_formats::attribute_table::AttributeTable;
 use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::library::{Library, free_id, id_from_name};
 use shagreen_formats::recording::{Ask, ColumnMap};
-use shagreen_formats::recordings_csv::{TextureRecording, read_recordings_csv};
+use shagreen_formats::texture_files::{TextureFile, TextureFileKind, read_texture_files};
 use shagreen_learn::stroke_set::StrokedTexture;
 
 use crate::cli::output;
 use crate::cli::recording_answers::{map_of, parse_answer};
-use crate::cli::recording_source::{read_recording_file, read_recording_files, read_three_axis_file};
+use crate::cli::stroke_recordings::StrokeRecordings;
 use crate::cli::train_networks::network_kind::Axes;
 use shagreen_studio::file;
 use shagreen_studio::near_names::unknown_texture;
@@ -85,13 +85,13 @@ pub(super) fn recorded(
     n_samples: usize,
 ) -> anyhow::Result<Vec<StrokedTexture>> {
     let map = map_of(args.map.as_deref(), &args.answers)?;
-    let listed =
-        read_recordings_csv(&file::read_file(path, FileKind::Table)?).with_context(|| file::in_file(path))?;
+    let listed = read_texture_files(&file::read_file(path, FileKind::Table)?, TextureFileKind::Recording)
+        .with_context(|| file::in_file(path))?;
     check_textures(&listed, library, table).with_context(|| file::in_file(path))?;
     let folder = path.parent().unwrap_or(Path::new(""));
     of_textures(library, table, |texture_id, _| {
         let of_texture = listed.iter().filter(|listed| listed.texture == texture_id);
-        let files: Vec<PathBuf> = of_texture.map(|listed| folder.join(&listed.recording)).collect();
+        let files: Vec<PathBuf> = of_texture.map(|listed| folder.join(&listed.file)).collect();
         let strokes = read_strokes(&files, &map, axes)?;
         ensure!(
             strokes.iter().any(|stroke| stroke.speed_mps.len() >= n_samples),
@@ -103,14 +103,9 @@ pub(super) fn recorded(
 }
 
 /// Checks that the table names textures of the library, and a recording for each texture with attributes.
-fn check_textures(
-    listed: &[TextureRecording],
-    library: &Library,
-    table: &AttributeTable,
-) -> anyhow::Result<()> {
-    let is_unknown =
-        |listed: &&TextureRecording| library.textures.iter().all(|texture| texture.id != listed.texture);
-    if let Some(TextureRecording { texture, line, .. }) = listed.iter().find(is_unknown) {
+fn check_textures(listed: &[TextureFile], library: &Library, table: &AttributeTable) -> anyhow::Result<()> {
+    let is_unknown = |listed: &&TextureFile| library.index_of(&listed.texture).is_none();
+    if let Some(TextureFile { texture, line, .. }) = listed.iter().find(is_unknown) {
         bail!("line {line}: {}", unknown_texture(library, texture));
     }
     let ids = table.textures.iter().map(|index| library.textures[*index].id.as_str());
@@ -124,30 +119,17 @@ fn check_textures(
     Ok(())
 }
 
+/// Reads the strokes in recordings, and warns of recordings at a lower rate than that of the networks.
 fn read_strokes(files: &[PathBuf], map: &ColumnMap, axes: Axes) -> anyhow::Result<Vec<Stroke>> {
-    Ok(match axes {
-        Axes::Combined => {
-            let recordings = read_recording_files(files, map, read_recording_file)?;
-            warn_of_slow(recordings.iter().map(|recording| recording.rate.0), files);
-            fit::strokes(&recordings, PAPER_RATE)?
-        }
-        Axes::Three => {
-            let recordings = read_recording_files(files, map, read_three_axis_file)?;
-            warn_of_slow(recordings.iter().map(|recording| recording.recording().rate.0), files);
-            fit::three_axis_strokes(&recordings, PAPER_RATE)?
-        }
-    })
-}
-
-/// Warns of recordings at a lower rate than that of the networks.
-fn warn_of_slow(rates_hz: impl Iterator<Item = f64>, files: &[PathBuf]) {
-    for (rate_hz, file) in rates_hz.zip(files).filter(|(rate_hz, _)| *rate_hz < 0.999 * PAPER_RATE.0) {
+    let recordings = StrokeRecordings::read(files, map, axes == Axes::Three)?;
+    for (index, rate_hz) in recordings.low_rates_hz() {
         output::warn(&format!(
             "the networks are trained at {} Hz; a recording at {rate_hz:.0} Hz lacks the highest frequencies: {}",
             PAPER_RATE.0,
-            file.display()
+            files[index].display()
         ));
     }
+    Ok(recordings.strokes()?)
 }
 
 /// Returns the training set: the strokes that `strokes_of` returns for the id of each texture and its index in the
@@ -188,19 +170,19 @@ fn range_of(values: impl Iterator<Item = f64>) -> [f64; 2] {
 mod tests {
     use super::{check_textures, range_of};
     use shagreen_formats::attribute_table::attribute_table;
-    use shagreen_formats::recordings_csv::TextureRecording;
     use shagreen_formats::starter::starter_library;
+    use shagreen_formats::texture_files::TextureFile;
 
     #[test]
     fn each_texture_needs_a_recording_and_each_recording_a_texture() {
         let library = starter_library().unwrap();
         let table = attribute_table(&library).unwrap();
-        let listed = |texture: &str| TextureRecording {
+        let listed = |texture: &str| TextureFile {
             texture: texture.to_owned(),
-            recording: format!("{texture}.csv"),
+            file: format!("{texture}.csv"),
             line: 7,
         };
-        let all: Vec<TextureRecording> = library.textures.iter().map(|texture| listed(&texture.id)).collect();
+        let all: Vec<TextureFile> = library.textures.iter().map(|texture| listed(&texture.id)).collect();
         assert!(check_textures(&all, &library, &table).is_ok());
         let error = check_textures(&all[1..], &library, &table).unwrap_err().to_string();
         assert!(error.contains("1 texture") && error.contains(&library.textures[0].id), "{error}");

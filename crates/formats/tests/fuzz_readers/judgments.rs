@@ -4,8 +4,8 @@ use shagreen_core::space::LabelSource;
 use shagreen_formats::photo_table::read_photo_table;
 use shagreen_formats::places_csv::{Scale, read_places};
 use shagreen_formats::ratings_csv::{ratings_csv, read_ratings_csv, read_relevance_csv};
-use shagreen_formats::recordings_csv::read_recordings_csv;
 use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
+use shagreen_formats::texture_files::{TextureFileKind, read_texture_files};
 
 pub(crate) fn sorting_seeds() -> Vec<Vec<u8>> {
     let long = "participant,trial,groups,texture,group\np1,1,2,cork,a\np1,1,2,felt,a\np1,1,2,glass,b\n";
@@ -97,8 +97,8 @@ pub(crate) fn read_some_places(bytes: &[u8]) -> Result<(), String> {
 }
 
 pub(crate) fn read_some_recordings(bytes: &[u8]) -> Result<(), String> {
-    let recordings = read_recordings_csv(bytes).unwrap_or_default();
-    let empty = recordings.iter().find(|of| of.texture.is_empty() || of.recording.is_empty());
+    let recordings = read_texture_files(bytes, TextureFileKind::Recording).unwrap_or_default();
+    let empty = recordings.iter().find(|of| of.texture.is_empty() || of.file.is_empty());
     empty.map_or(Ok(()), |recording| Err(format!("{recording:?}")))
 }
 

@@ -36,7 +36,7 @@ const LATE: usize = STAGES.len() - 1;
 
 /// Number of early features: mean and standard deviation of each channel of those stages.
 pub(super) const N_EARLY: usize = 2 * (STAGES[1].3 + STAGES[2].3 + STAGES[3].3 + STAGES[4].3);
-/// Number of late features: mean and standard deviation of each channel of the last stage.
+/// Number of features of the last stage: mean and standard deviation of each channel.
 pub(super) const N_LATE: usize = 2 * STAGES[LATE].3;
 
 /// The network.

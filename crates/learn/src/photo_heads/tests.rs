@@ -1,25 +1,13 @@
 use super::{PhotoHeads, PhotoHeadsError, class_weights};
 use crate::model_file::Numbers;
-use crate::photo_config::{HeadWeights, PhotoConfig, SmallNetworkConfig};
+use crate::photo_config::{HeadWeights, PhotoConfig};
+use crate::photo_model::made_up::fast;
 use crate::photo_set::PhotoSet;
 use crate::photo_set::made_up::photo_set;
 
-fn config(seed: u64) -> PhotoConfig {
-    let usual = PhotoConfig::usual(seed);
-    let network = SmallNetworkConfig {
-        n_hidden: 12,
-        dropout: 0.2,
-        learning_rate: 0.02,
-        n_epochs: 40,
-        n_batch: 32,
-        ..usual.network
-    };
-    PhotoConfig { ridge_penalty: 0.01, network, ..usual }
-}
-
 fn learn(set: &PhotoSet, seed: u64) -> PhotoHeads {
     let all: Vec<usize> = (0..set.photos.len()).collect();
-    PhotoHeads::learn(set, &all, &config(seed)).unwrap()
+    PhotoHeads::learn(set, &all, &fast(seed)).unwrap()
 }
 
 #[test]
@@ -50,7 +38,7 @@ fn classes_and_hardness_of_new_photos_are_predicted() {
 fn a_class_without_photos_has_no_probability() {
     let set = photo_set(60, 1);
     let known: Vec<usize> = (0..60).filter(|index| set.photos[*index].class != 1).collect();
-    let heads = PhotoHeads::learn(&set, &known, &config(1)).unwrap();
+    let heads = PhotoHeads::learn(&set, &known, &fast(1)).unwrap();
     let looked = heads.look(&set.photos[1].features.late[..1]).unwrap();
     assert_eq!((looked.probabilities[0].len(), looked.probabilities[0][1]), (3, 0.0));
     assert!((looked.probabilities[0].iter().sum::<f64>() - 1.0).abs() < 1e-9);
@@ -66,11 +54,11 @@ fn heads_come_back_from_a_file_and_a_seed_gives_the_same() {
     let mut numbers = Numbers::new();
     heads.add_to(&mut numbers, "photo.").unwrap();
     let sizes = [heads.n_features(), 3];
-    let read = PhotoHeads::read(&numbers, "photo.", &config(5), sizes, heads.parts()).unwrap();
+    let read = PhotoHeads::read(&numbers, "photo.", &fast(5), sizes, heads.parts()).unwrap();
     assert_eq!(looked(&read), looked(&heads));
-    let wrong = PhotoHeads::read(&numbers, "photo.", &config(5), [heads.n_features(), 4], heads.parts());
+    let wrong = PhotoHeads::read(&numbers, "photo.", &fast(5), [heads.n_features(), 4], heads.parts());
     assert!(matches!(wrong, Err(PhotoHeadsError::File(_))));
-    let missing = PhotoHeads::read(&numbers, "other.", &config(5), sizes, heads.parts());
+    let missing = PhotoHeads::read(&numbers, "other.", &fast(5), sizes, heads.parts());
     assert!(matches!(missing, Err(PhotoHeadsError::File(_))));
 }
 
@@ -79,7 +67,7 @@ fn heads_without_weight_are_not_trained() {
     let set = photo_set(30, 3);
     let hardness = HeadWeights { ridge: 0.0, classes: 1.0, network: 0.0 };
     let all: Vec<usize> = (0..30).collect();
-    let heads = PhotoHeads::learn(&set, &all, &PhotoConfig { hardness, ..config(1) }).unwrap();
+    let heads = PhotoHeads::learn(&set, &all, &PhotoConfig { hardness, ..fast(1) }).unwrap();
     assert_eq!(heads.parts(), (false, 0));
     let looked = heads.look(&set.photos[0].features.late).unwrap();
     assert!(looked.ridge.is_none() && looked.networks.is_empty());
@@ -96,13 +84,13 @@ fn photos_of_large_classes_count_less() {
 fn impossible_input_is_refused() {
     let set = photo_set(30, 3);
     let all: Vec<usize> = (0..30).collect();
-    let refused = |set: &PhotoSet, photos: &[usize]| PhotoHeads::learn(set, photos, &config(1)).unwrap_err();
+    let refused = |set: &PhotoSet, photos: &[usize]| PhotoHeads::learn(set, photos, &fast(1)).unwrap_err();
     assert!(matches!(refused(&set, &[]), PhotoHeadsError::TooFew { n_photos: 0, .. }));
     assert!(matches!(refused(&set, &[0, 3, 6]), PhotoHeadsError::TooFew { n_photos: 3, n_classes: 1 }));
     let mut broken = set.clone();
     broken.photos[4].features.late[2][0] = f32::NAN;
     assert!(matches!(refused(&broken, &all), PhotoHeadsError::Features { index: 4 }));
-    let wrong = PhotoConfig { class_penalty: 0.0, ..config(1) };
+    let wrong = PhotoConfig { class_penalty: 0.0, ..fast(1) };
     assert!(matches!(PhotoHeads::learn(&set, &all, &wrong), Err(PhotoHeadsError::Settings)));
     let heads = learn(&set, 1);
     assert!(matches!(heads.look(&[vec![0.0; 4], vec![0.0; 3]]), Err(PhotoHeadsError::Features { index: 1 })));

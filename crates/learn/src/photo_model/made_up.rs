@@ -28,18 +28,24 @@ pub(crate) fn drawn_heads(n_features: usize) -> PictureModel {
 }
 
 /// Fast settings.
-pub(crate) fn config() -> PhotoConfig {
-    let usual = PhotoConfig::usual(1);
+pub(crate) fn fast(seed: u64) -> PhotoConfig {
+    let usual = PhotoConfig::usual(seed);
     let network = SmallNetworkConfig {
         n_hidden: 12,
         dropout: 0.2,
         learning_rate: 0.02,
         n_epochs: 40,
         n_batch: 32,
-        n_networks: 1,
         ..usual.network
     };
-    PhotoConfig { ridge_penalty: 0.01, network, calibration: Calibration::Sources, ..usual }
+    PhotoConfig { ridge_penalty: 0.01, network, ..usual }
+}
+
+/// Fast settings with one network, calibrated on sources.
+pub(crate) fn config() -> PhotoConfig {
+    let fast = fast(1);
+    let network = SmallNetworkConfig { n_networks: 1, ..fast.network };
+    PhotoConfig { network, calibration: Calibration::Sources, ..fast }
 }
 
 pub(crate) fn card() -> PhotoCard {
