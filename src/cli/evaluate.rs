@@ -143,6 +143,11 @@ fn explained(error: LeaveOneOutError, library: &Library, args: &LibraryArgs) -> 
 
 fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> String {
     let n = measured.textures.len();
+    let checks = measured.methods.iter().filter_map(|summary| summary.signals);
+    let n_rendered = checks.clone().map(|check| check.n).max().unwrap_or(0);
+    // Both columns are means over the rendered textures, which may be fewer than those of the other columns.
+    let [model, signal] = ["model", "signal"].map(|name| format!("{name} (n={n_rendered})"));
+    let rendered = if n_rendered > 0 { format!(" {model:>12} {signal:>12}") } else { String::new() };
     let mut lines = vec![
         format!(
             "{}: leave-one-out of {} ({} have a position; {} on the convex hull are not evaluated); {}; the errors are computed, not rated by people",
@@ -153,16 +158,8 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
             evaluation_source(library)
         ),
         format!(
-            "  {:10} {:>12} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6} {:>12}",
-            "",
-            "mean error",
-            "median error",
-            "level error",
-            "shape error",
-            "rank 1",
-            "top 5",
-            "NRS",
-            "signal error"
+            "  {:10} {:>12} {:>12} {:>12} {:>12} {:>6} {:>6} {:>6}{rendered}",
+            "", "mean error", "median error", "level error", "shape error", "rank 1", "top 5", "NRS",
         ),
     ];
     let best = best(measured).map(|summary| &summary.method);
@@ -176,12 +173,10 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
     ];
     lines.extend(notes.map(str::to_owned));
     lines.extend(position_caveat(library).map(str::to_owned));
-    let checks = measured.methods.iter().filter_map(|summary| summary.signals);
-    if let Some(largest) = checks.clone().map(|c| c.mean_difference_db).max_by(f64::total_cmp) {
-        let rendered = checks.map(|check| check.n).max().unwrap_or(0);
+    if let Some(largest) = checks.map(|c| c.mean_difference_db).max_by(f64::total_cmp) {
         lines.push(format!(
-            "signal error: the same error computed on rendered signals of {}. It differs from the model error by at most {largest:.2} dB on average.",
-            counted(rendered, "texture")
+            "Model, signal: mean error of {}, computed from the models and from rendered signals. For one texture, the two differ by {largest:.2} dB on average at most.",
+            counted(n_rendered, "texture")
         ));
     }
     lines.extend(figures.map(|folder| format!("Figures: {}", folder.display())));
@@ -189,11 +184,12 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
 }
 
 fn row(summary: &Summary, is_best: bool) -> String {
-    let none = || "\u{2013}".to_owned();
-    let nrs = summary.nrs_mean.map_or_else(none, |nrs| format!("{nrs:.2}"));
-    let signals = summary.signals.map_or_else(none, |check| format!("{:.2} dB", check.error_db_mean));
+    let nrs = summary.nrs_mean.map_or_else(|| "\u{2013}".to_owned(), |nrs| format!("{nrs:.2}"));
+    let rendered = summary.signals.map_or_else(String::new, |check| {
+        format!(" {:9.2} dB {:9.2} dB", check.model_error_db_mean, check.error_db_mean)
+    });
     format!(
-        "{} {:10} {:9.2} dB {:9.2} dB {:9.2} dB {:9.2} dB {:4.0} % {:4.0} % {nrs:>6} {signals:>12}",
+        "{} {:10} {:9.2} dB {:9.2} dB {:9.2} dB {:9.2} dB {:4.0} % {:4.0} % {nrs:>6}{rendered}",
         if is_best { '*' } else { ' ' },
         method_id(&summary.method),
         summary.error_db_mean,

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::words::counted;
-use shagreen_formats::atomic;
 use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, read_library, write_library};
+use shagreen_formats::locked_update::update;
 
 use crate::cli::output;
 use shagreen_studio::file;
@@ -110,19 +110,27 @@ impl<'a> Outcome<'a> {
     /// # Errors
     /// Nothing was imported, or the library cannot be written.
     pub(crate) fn finish(self, more: Value) -> anyhow::Result<()> {
-        let Self { destination, mut library, .. } = self;
+        let Self { destination, library, imported, mut warnings, .. } = self;
         let mut textures = Vec::new();
-        for (texture, figures) in self.imported {
-            textures.push(with_id(&texture, figures));
-            match library.index_of(&texture.id) {
-                Some(index) => library.textures[index] = texture,
-                None => library.textures.push(texture),
-            }
+        if !imported.is_empty() {
+            // Recordings take seconds to read: another process may have added textures since the library was read.
+            let written = update(&destination.out, FileKind::Document, |present| {
+                let now = match present {
+                    Some(bytes) => parsed(bytes, &destination.out)?,
+                    None => library.clone(),
+                };
+                let joined =
+                    joined(now, imported, |id| !destination.replace && library.index_of(id).is_none());
+                textures = joined.figures;
+                for warning in joined.warnings {
+                    output::warn(&warning);
+                    warnings.push(warning);
+                }
+                anyhow::Ok(write_library(&joined.library))
+            });
+            written??;
         }
         let n_imported = textures.len();
-        if n_imported > 0 {
-            atomic::write(&destination.out, &write_library(&library))?;
-        }
         let failed: Vec<Value> = self
             .failed
             .iter()
@@ -132,7 +140,7 @@ impl<'a> Outcome<'a> {
             "out": destination.out.display().to_string(),
             "imported": n_imported,
             "failed": failed,
-            "warnings": self.warnings,
+            "warnings": warnings,
             "notes": self.notes,
             "textures": textures,
         });
@@ -192,9 +200,50 @@ fn existing(path: &Path) -> anyhow::Result<Library> {
             ..Library::default()
         });
     }
-    let bytes = file::read_file(path, FileKind::Document)?;
-    let read = read_library(&bytes).with_context(|| file::in_file(path))?;
-    Ok(read.value)
+    parsed(&file::read_file(path, FileKind::Document)?, path)
+}
+
+fn parsed(bytes: &[u8], path: &Path) -> anyhow::Result<Library> {
+    Ok(read_library(bytes).with_context(|| file::in_file(path))?.value)
+}
+
+/// Library with imported textures.
+struct Joined {
+    library: Library,
+    /// Fields of each texture in the result.
+    figures: Vec<Value>,
+    warnings: Vec<String>,
+}
+
+/// Adds textures to a library. A texture with the same id is replaced, unless it `is_new`: then another process added it
+/// meanwhile, and both are kept.
+fn joined(
+    mut library: Library,
+    imported: Vec<(TextureEntry, Value)>,
+    is_new: impl Fn(&str) -> bool,
+) -> Joined {
+    let (mut figures, mut warnings) = (Vec::new(), Vec::new());
+    let added_meanwhile: Vec<String> =
+        library.textures.iter().map(|texture| texture.id.clone()).filter(|id| is_new(id)).collect();
+    let claimed: Vec<String> = imported.iter().map(|(texture, _)| texture.id.clone()).collect();
+    for (mut texture, of_texture) in imported {
+        if added_meanwhile.contains(&texture.id) {
+            let id = free_id(&texture.id, |id| {
+                library.index_of(id).is_some() || claimed.iter().any(|claimed| claimed == id)
+            });
+            warnings.push(format!(
+                "another program added a texture \"{}\" to the library meanwhile: this one gets the id \"{id}\"",
+                texture.id
+            ));
+            texture.id = id;
+        }
+        figures.push(with_id(&texture, of_texture));
+        match library.index_of(&texture.id) {
+            Some(index) => library.textures[index] = texture,
+            None => library.textures.push(texture),
+        }
+    }
+    Joined { library, figures, warnings }
 }
 
 fn with_id(texture: &TextureEntry, mut figures: Value) -> Value {

@@ -191,16 +191,21 @@ pub(crate) fn part_of(set: &PhotoSet, table: &PhotoTable) -> PhotoSet {
     }
 }
 
-/// Returns a class with its roughness, which the lexicon estimates from its name.
+/// Returns a class with its roughness: that of its entry in the lexicon, or else that of the words of its name.
 fn material_class(class: &PhotoClass) -> anyhow::Result<MaterialClass> {
-    let understood = interpret(&class.name, built_in_lexicon()?);
-    if !understood.is_about_touch() {
-        output::warn(&format!(
-            "the lexicon does not contain \"{}\", so the roughness of this class is unknown",
-            class.name
-        ));
-    }
-    let [rough_smooth, ..] = understood.attributes;
+    let lexicon = built_in_lexicon()?;
+    let of_entry = lexicon.material(&class.name).and_then(|(_, [rough_smooth, ..])| *rough_smooth);
+    let rough_smooth = of_entry.unwrap_or_else(|| {
+        let understood = interpret(&class.name, lexicon);
+        if !understood.is_about_touch() {
+            output::warn(&format!(
+                "the lexicon does not contain \"{}\", so the roughness of this class is unknown",
+                class.name
+            ));
+        }
+        let [rough_smooth, ..] = understood.attributes;
+        rough_smooth
+    });
     Ok(MaterialClass {
         name: class.name.clone(),
         hard_soft: class.softness,
@@ -278,6 +283,13 @@ mod tests {
         let brick = class("brick");
         assert!(brick.rough_smooth < 20.0 && brick.rough_smooth_sd < 15.0, "{brick:?}");
         assert_eq!((brick.hard_soft, brick.hard_soft_sd), (9.0, 7.0));
+        // The entry that stands for the class, not the word in its name.
+        let lexicon = shagreen_formats::lexicon_toml::built_in_lexicon().unwrap();
+        let plush = lexicon.material("plush").unwrap().1[0].unwrap();
+        assert_eq!(
+            (class("plush").rough_smooth, class("plush").rough_smooth_sd),
+            (plush.mean, plush.deviation)
+        );
         // An unknown name says nothing.
         let unknown = class("zzyzx");
         assert_eq!((unknown.rough_smooth, unknown.rough_smooth_sd), (50.0, 28.9));

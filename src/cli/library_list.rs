@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 use shagreen_core::space::LabelSource;
+use shagreen_core::words::counted;
 use shagreen_formats::axis_sources::axis_sources;
 use shagreen_formats::library::{Library, Provenance, TextureEntry};
 
@@ -102,7 +103,8 @@ fn table(library: &Library) -> String {
         )
     };
     let [across, up] = library.axis_names();
-    let head = format!("{}: {} textures; axes: {across} and {up}", library.name, library.textures.len());
+    let n_textures = counted(library.textures.len(), "texture");
+    let head = format!("{}: {n_textures}; axes: {across} and {up}", library.name);
     let mut lines = vec![head];
     let sources = library.space_report.as_ref().and_then(axis_sources);
     lines.extend(sources.map(|sources| format!("positions: {sources}")));

@@ -91,6 +91,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "dprime_applies": agreement.relation() == Relation::Processed,
         "waveform_correlation": agreement.correlation,
         "octave_levels_differ_db": agreement.spectra_db,
+        "spectra_gfc": agreement.spectra_gfc,
         "st_sim": similarities[0],
         "spqi": similarities[1],
         // Infinite for identical signals.
@@ -115,7 +116,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 /// States the predicted d' and its limits, or why it does not apply.
 fn d_prime_text(d_prime: f64, seconds: f64, agreement: &Agreement) -> String {
-    let Agreement { correlation, spectra_db } = agreement;
+    let Agreement { correlation, spectra_db, spectra_gfc } = agreement;
     match agreement.relation() {
         Relation::Processed => {
             let value = if d_prime > MOST_D_PRIME {
@@ -131,7 +132,7 @@ fn d_prime_text(d_prime: f64, seconds: f64, agreement: &Agreement) -> String {
             "no d': different noise. The spectra agree (octave levels differ by {spectra_db:.1} dB), but the waveforms do not correlate (r = {correlation:.2}), as for two renderings or strokes of one texture. The model compares waveforms, and would count the noise as a perceptible difference. Not rated by people"
         ),
         Relation::Unrelated => format!(
-            "no d': the waveforms do not correlate (r = {correlation:.2}), and the octave levels differ by {spectra_db:.1} dB. The model predicts d' only for a signal and a processed version of it. Not rated by people"
+            "no d': the waveforms do not correlate (r = {correlation:.2}), and the spectra differ (octave levels by {spectra_db:.1} dB; goodness of fit in steps of 10 Hz {spectra_gfc:.2}). The model predicts d' only for a signal and a processed version of it. Not rated by people"
         ),
     }
 }
@@ -176,12 +177,14 @@ mod tests {
 
     #[test]
     fn a_d_prime_is_stated_up_to_5_and_only_where_it_applies() {
-        let processed = Agreement { correlation: 0.9, spectra_db: 1.0 };
+        let processed = Agreement { correlation: 0.9, spectra_db: 1.0, spectra_gfc: 1.0 };
         assert!(d_prime_text(1.234, 0.8, &processed).starts_with("d' 1.23, predicted"));
         assert!(d_prime_text(37.3, 0.8, &processed).starts_with("d' above 5 (easy to tell apart)"));
-        let noise = d_prime_text(6.2, 0.8, &Agreement { correlation: 0.05, spectra_db: 0.4 });
+        let noise =
+            d_prime_text(6.2, 0.8, &Agreement { correlation: 0.05, spectra_db: 0.4, spectra_gfc: 0.9 });
         assert!(noise.starts_with("no d': different noise") && !noise.contains("6.2"), "{noise}");
-        let other = d_prime_text(57.7, 0.8, &Agreement { correlation: 0.05, spectra_db: 12.0 });
+        let other =
+            d_prime_text(57.7, 0.8, &Agreement { correlation: 0.05, spectra_db: 12.0, spectra_gfc: 0.2 });
         assert!(other.starts_with("no d': the waveforms") && other.contains("12.0 dB"), "{other}");
         for text in [noise, other, d_prime_text(1.0, 0.8, &processed)] {
             assert!(text.to_lowercase().contains("not rated by people"), "{text}");

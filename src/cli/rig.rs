@@ -55,12 +55,13 @@ pub(crate) struct RigArgs {
     buffer: Option<u32>,
     /// Actuator, by id or profile file: its response is equalized and its electrical limits are enforced. If its profile
     /// has a friction display, the friction of the texture is played on the channel of the display.
-    #[arg(long, value_name = "ID_OR_FILE", conflicts_with = "full_scale", requires = "full_scale_volts")]
+    #[arg(long, value_name = "ID_OR_FILE", conflicts_with = "full_scale")]
     actuator: Option<String>,
     /// Mass of the load on the actuator, in g, without the actuator itself. Default: the load of its profile.
     #[arg(long, value_name = "G", requires = "actuator", value_parser = grams)]
     load_g: Option<f64>,
-    /// Peak voltage at the actuator when the output is at digital full scale, in V; all limits depend on it.
+    /// Peak voltage at the actuator when the output is at digital full scale, in V; all limits depend on it. Default: the
+    /// voltage at which the profile of --actuator was measured; a profile that was not measured needs this option.
     #[arg(long, value_name = "V", requires = "actuator", value_parser = volts)]
     full_scale_volts: Option<f64>,
     /// Do not equalize the actuator's response; enforce only its limits.
@@ -164,11 +165,12 @@ impl RigArgs {
     }
 
     fn drive(&self, actuator: Option<&Actuator>) -> anyhow::Result<DriveConfig> {
-        let (Some(actuator), Some(full_scale)) = (actuator, self.full_scale_volts) else {
+        let Some(actuator) = actuator else {
             return Ok(DriveConfig::proportional(self.full_scale as f32, USUAL_CEILING));
         };
         let name = self.actuator.as_deref().unwrap_or(&actuator.id);
-        let config = drive_config(actuator, Drive::new(Volts(full_scale))?, !self.no_equalizer);
+        let drive = self.full_scale_of(actuator, name)?;
+        let config = drive_config(actuator, drive, !self.no_equalizer);
         let config = config.with_context(|| format!("the actuator `{name}` cannot be driven"))?;
         if let Some(warning) = actuator.limits_warning() {
             output::warn(&warning.to_string());
@@ -178,5 +180,23 @@ impl RigArgs {
             ));
         }
         Ok(config)
+    }
+
+    /// Voltage at digital full scale: as given, or as stated by the measured profile `name`.
+    fn full_scale_of(&self, actuator: &Actuator, name: &str) -> anyhow::Result<Drive> {
+        if let Some(full_scale) = self.full_scale_volts {
+            return Ok(Drive::new(Volts(full_scale))?);
+        }
+        let Some(calibrated) = actuator.calibrated else {
+            let text = format!(
+                "the profile of the actuator `{name}` states no voltage at digital full scale: give --full-scale-volts V"
+            );
+            return Err(output::Usage(text).into());
+        };
+        let volts = calibrated.full_scale.0;
+        output::note(&format!(
+            "{volts} V at digital full scale, as stated by the profile of the actuator `{name}`; give --full-scale-volts for another output or volume"
+        ));
+        Ok(Drive::new(calibrated.full_scale)?)
     }
 }

@@ -7,7 +7,7 @@ use anyhow::bail;
 use serde_json::{Value, json};
 use shagreen_core::maths::statistics::is_constant;
 use shagreen_core::signals::spatial_spectrogram::{
-    Framing, PAPER_WINDOWS_M, ProfileFidelity, SpatialSpectrogram, Transform, fidelity_by_window,
+    Framing, PAPER_WINDOWS_M, ProfileFidelity, Transform, fidelity_by_window, offset_of,
 };
 use shagreen_formats::atomic;
 
@@ -21,7 +21,9 @@ use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 /// accuracy of the reconstruction.
 ///
 /// A spatial spectrogram contains the power in each window along the profile, by spatial frequency, but not the phases.
-/// Positions within a window are lost: narrower windows preserve more of them.
+/// Positions within a window are lost: narrower windows preserve more of them. Power has no sign, so a profile with
+/// negative values is raised by minus its lowest value before it is reconstructed; the table of --out is the spectrogram
+/// of the profile as it is.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -30,7 +32,8 @@ pub(crate) struct Args {
     /// to 0.2 mm, as far as they fit the profile.
     #[arg(long = "window", value_name = "MM", value_parser = positive)]
     windows_mm: Vec<f64>,
-    /// Table to write with the spectrogram for one window width: position in mm, spatial frequency in 1/mm, power.
+    /// Table to write with the spectrogram for one window width: position in mm, spatial frequency in 1/mm, and power in
+    /// the squared unit of the profile, `|Σ w f e^(-2πikn/N)|²` with the Hann window w.
     #[arg(short, long, value_name = "OUT.csv")]
     out: Option<PathBuf>,
     /// Print the result as one JSON object.
@@ -77,11 +80,13 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     progress.finish();
     let rows: Vec<Value> = found.iter().map(row).collect();
+    let offset = offset_of(values);
     let answer = json!({
         "samples": values.len(),
         "step_mm": 1e3 * step_m,
         "length_mm": 1e3 * profile.length_m(),
         "windows": rows,
+        "offset_for_reconstruction": offset,
         "out": args.out.as_ref().map(|out| out.display().to_string()),
     });
     output::print(args.json, &answer, || {
@@ -91,6 +96,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             values.len()
         )];
         lines.extend(found.iter().map(line));
+        if offset > 0.0 {
+            lines.push(format!(
+                "The profile has negative values: {offset:.6} was added for the reconstruction, and subtracted from its result."
+            ));
+        }
         lines.extend(args.out.as_ref().map(|out| format!("Spectrogram: {}", out.display())));
         lines.join("\n")
     });
@@ -118,12 +128,12 @@ pub(super) fn line(found: &ProfileFidelity) -> String {
     )
 }
 
-/// Returns the spectrogram for one window width as a table.
+/// Returns the spectrogram for one window width as a table, without the offset of a reconstruction.
 fn table(values: &[f64], step_m: f64, framing: Framing) -> anyhow::Result<String> {
-    let spectrogram = SpatialSpectrogram::of(values, &Transform::new(framing))?;
+    let power = Transform::new(framing).power(values)?;
     let per_mm = 1e-3 / (framing.window() as f64 * step_m);
     let mut text = String::from(HEADER);
-    for (frame, powers) in spectrogram.power().frames().enumerate() {
+    for (frame, powers) in power.frames().enumerate() {
         let x_mm = 1e3 * step_m * framing.center(frame);
         for (k, power) in powers.iter().enumerate() {
             // Writing to a string cannot fail.

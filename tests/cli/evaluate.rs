@@ -49,6 +49,15 @@ fn check(library: &str, source: &str) -> Value {
         let summary = if method == "nearest" { &report["nearest"] } else { &report["modes"][method] };
         let signals = |field: &str| summary["signals"][field].as_f64().unwrap();
         assert!(signals("n") >= 3.0 && signals("mean_difference_db") < 0.5, "{method}: {summary}");
+        // Both errors are means over the same textures.
+        let rendered: Vec<f64> = textures
+            .iter()
+            .filter(|texture| texture["signal_error_db"][method].is_number())
+            .map(|texture| texture["error_db"][method].as_f64().unwrap())
+            .collect();
+        assert_eq!(signals("n") as usize, rendered.len());
+        let mean = rendered.iter().sum::<f64>() / rendered.len() as f64;
+        assert!((signals("model_error_db_mean") - mean).abs() < 1e-9, "{method}: {summary}");
         // Rendered signals have the spectrum of their model; over eight seconds chance accounts for 0.3 dB.
         assert!(signals("from_model_db") < 0.8, "{method}: {summary}");
         let map = std::fs::read_to_string(bench.path(&format!("f/error-{method}.svg"))).unwrap();
@@ -91,10 +100,14 @@ fn a_table_says_what_was_measured_and_which_is_best() {
         lines[1].contains("shape error") && said.stdout.contains("contains part of its answer"),
         "{said:?}"
     );
-    assert!(!said.stdout.contains("signal error:") && bench.files().is_empty(), "{said:?}");
+    assert!(!said.stdout.contains("signal (n") && bench.files().is_empty(), "{said:?}");
     let said = bench.run("evaluate leave-one-out --library simulated --signals 1 --seconds 4 --blend paper");
     assert!(said.stdout.contains("simulated raters") && said.stdout.contains("* nearest"), "{said:?}");
     assert!(!said.stdout.contains("part of its answer"), "positions from sorts and ratings: {said:?}");
+    // The mean of one texture stands beside the model error of the same texture, not of all textures.
+    assert!(
+        said.stdout.contains("model (n=1) signal (n=1)") && said.stdout.contains("mean error of 1 texture")
+    );
 }
 
 #[test]

@@ -406,6 +406,36 @@ fn a_folder_is_the_recordings_in_it() {
     bench.fails("import recording strokes --out strokes/b.csv", 1, &["overwrite an input file"]);
 }
 
+/// Before, of eight imports at once only one texture was left.
+#[test]
+fn imports_at_the_same_time_into_one_library_lose_nothing() {
+    let bench = Bench::new();
+    bench.write("Models_Slate.xml", MADE_UP);
+    for out in ["new.json", "old.json"] {
+        if out == "old.json" {
+            bench.json("import hatt Models_Slate.xml --out old.json");
+        }
+        let commands = (0..8).map(|_| {
+            let mut command = bench.command(&format!("import hatt Models_Slate.xml --out {out}"));
+            command.stdout(std::process::Stdio::null()).stderr(std::process::Stdio::null()).spawn().unwrap()
+        });
+        let running: Vec<_> = commands.collect();
+        for mut import in running {
+            assert!(import.wait().unwrap().success());
+        }
+        let library: Value = serde_json::from_slice(&std::fs::read(bench.path(out)).unwrap()).unwrap();
+        let textures = library["textures"].as_array().unwrap();
+        let mut ids: Vec<&str> = textures.iter().map(|texture| texture["id"].as_str().unwrap()).collect();
+        ids.sort_unstable();
+        ids.dedup();
+        assert_eq!(ids.len(), if out == "new.json" { 8 } else { 9 }, "{out}: {ids:?}");
+    }
+    // A texture with the same identifier is still replaced where that was said.
+    bench.json("import hatt Models_Slate.xml --out new.json --replace");
+    let library: Value = serde_json::from_slice(&std::fs::read(bench.path("new.json")).unwrap()).unwrap();
+    assert_eq!(library["textures"].as_array().unwrap().len(), 8);
+}
+
 /// Real recordings that lack what a model needs: every reason is named, and no value is invented.
 #[test]
 fn real_recordings_that_cannot_be_modelled_say_why() {

@@ -63,6 +63,50 @@ fn no_more_is_limited_than_was_played_and_the_limit_is_named() {
     assert!(said.stdout.contains("samples limited: none") && !said.stderr.contains("warning"), "{said:?}");
 }
 
+/// Profile of an actuator that was measured with 2 V at digital full scale.
+const MEASURED: &str = r#"format = "shagreen-actuator"
+version = "1.0"
+id = "my-pen"
+name = "My pen"
+source = "Made up for a test"
+lowest_hz = 20
+
+[response]
+load_g = 40.0
+resonance_hz = 120.0
+q = 8.0
+gain_mps2_per_v = 15.0
+
+[limits]
+thermal_time_s = 10.0
+
+[calibration]
+fit_error_db = 0.02
+resonance_error_hz = 0.01
+q_error = 0.01
+gain_error_mps2_per_v = 0.01
+full_scale_v = 2.0
+"#;
+
+/// Before, the command asked for a voltage that the profile states.
+#[test]
+fn a_measured_profile_states_the_voltage_at_full_scale() {
+    let bench = Bench::new();
+    bench.write("pen.toml", MEASURED);
+    let steady = "play --texture cork --speed 100 --force 1 --seconds 0.2";
+    let said = bench.run(&format!("{steady} --actuator pen.toml"));
+    assert!(said.code == 0 && said.stderr.contains("2 V at digital full scale"), "{said:?}");
+    // A voltage on the command line has priority.
+    let said = bench.run(&format!("{steady} --actuator pen.toml --full-scale-volts 3"));
+    assert!(said.code == 0 && !said.stderr.contains("digital full scale"), "{said:?}");
+    // A profile that was not measured states none.
+    bench.fails(
+        &format!("{steady} --actuator haptuator-mark-ii"),
+        2,
+        &["haptuator-mark-ii", "states no voltage at digital full scale", "--full-scale-volts"],
+    );
+}
+
 #[test]
 fn a_channel_that_is_not_there_is_refused() {
     let bench = Bench::new();

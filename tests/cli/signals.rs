@@ -151,6 +151,39 @@ fn profiles_are_made_analysed_and_made_anew() {
     bench.fails("spatial analyse uneven.csv", 1, &["line 3", "uneven.csv"]);
 }
 
+/// A sine of amplitude 2 and mean 0: before, the table was that of the sine plus 2, with more power at 0 per mm than at
+/// the frequency of the sine.
+#[test]
+fn the_table_is_the_spectrogram_of_a_profile_with_negative_values_as_it_is() {
+    let bench = Bench::new();
+    let sine = |i: u32| 2.0 * (std::f64::consts::TAU * f64::from(i) / 100.0).sin();
+    let row = |i: u32| format!("{},{:.9}\n", f64::from(i) / 100.0, sine(i));
+    bench.write("sine.csv", (0..4000).map(row).collect::<String>());
+    let found = bench.json("spatial analyse sine.csv --window 5 -o s.csv");
+    assert!((found["offset_for_reconstruction"].as_f64().unwrap() - 2.0).abs() < 1e-6, "{found}");
+    let text = bench.run("spatial analyse sine.csv --window 5").stdout;
+    assert!(text.contains("negative values") && text.contains("2.000000 was added"), "{text}");
+    let table = std::fs::read_to_string(bench.path("s.csv")).unwrap();
+    let rows = table
+        .lines()
+        .skip(1)
+        .map(|line| -> Vec<f64> { line.split(',').map(|field| field.parse().unwrap()).collect() });
+    for row in rows.filter(|row| row[0] == 20.0) {
+        // A Hann window of N = 500 samples has the sum N / 2: the power is (a N / 4)² at the frequency of the sine, and a
+        // quarter of it at its neighbors.
+        let peak = 250.0_f64.powi(2);
+        let expected = match (row[1] * 5.0).round() as i32 {
+            5 => peak,
+            4 | 6 => 0.25 * peak,
+            _ => 0.0,
+        };
+        assert!((row[2] - expected).abs() < 1e-3 * peak, "{row:?}");
+    }
+    // Without negative values, nothing is added.
+    bench.json("spatial make B --length 40 -o B.csv");
+    assert_eq!(bench.json("spatial analyse B.csv --window 2")["offset_for_reconstruction"], 0.0);
+}
+
 /// Returns the amplitude of a signal's component at a frequency.
 fn amplitude(signal: &[f64], rate_hz: f64, hz: f64) -> f64 {
     let turn = |i: usize| std::f64::consts::TAU * hz * i as f64 / rate_hz;

@@ -422,6 +422,10 @@ fn few_textures_and_few_participants_are_said() {
     assert_eq!(report["stability"], json!(null));
     let said = report["warnings"].to_string();
     assert!(said.contains("2 participants sorted and 2 rated, but at least 3 of each are needed"), "{said}");
+    // The report and the page of figures say so too, beside what depends on it.
+    let verdict = report["verdict"].to_string();
+    assert!(verdict.contains("Few participants (2 sorted, 2 rated)"), "{verdict}");
+    assert!(text(&bench, "l.report.svg").contains("ew participants"), "no word of it on the page");
     let keep: Vec<&str> = ["participant", "cork", "felt", "brick", "glass", "leather"].into();
     let five = |text: &str, n: usize| -> String {
         let kept = text.lines().filter(|line| keep[..=n].iter().any(|word| line.contains(word)));

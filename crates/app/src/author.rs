@@ -19,6 +19,7 @@ pub(crate) mod locks;
 pub(crate) mod new_texture;
 pub mod pad;
 pub mod prompt;
+pub(crate) mod renamed_row;
 pub mod scope;
 pub(crate) mod shape_ui;
 pub(crate) mod solo;

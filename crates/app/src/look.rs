@@ -17,5 +17,7 @@ pub(crate) mod plot;
 pub(crate) mod scale;
 pub(crate) mod sheet_frame;
 pub(crate) mod spectrum_plot;
+pub(crate) mod text_selection;
 pub mod theme;
+pub(crate) mod together;
 pub(crate) mod tooltips;

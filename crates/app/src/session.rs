@@ -12,6 +12,7 @@ mod height_maps_worker;
 mod interpolation;
 pub(crate) mod kept_path;
 mod loaded_textures;
+mod messages;
 mod models_worker;
 mod open_library;
 mod opening;
@@ -41,7 +42,6 @@ use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::project::{BlendChoice, OwnTextures, Project, ProjectLibrary};
 use shagreen_studio::authoring::plane_at;
 use shagreen_studio::report::Warnings;
-use shagreen_studio::short_text::shortened;
 
 use crate::state::scope_buffer::ScopeBuffer;
 use crate::strings;
@@ -52,6 +52,7 @@ pub use self::pen::PenFacts;
 use self::authored_state::AuthoredState;
 use self::hand_state::HandState;
 use self::loaded_textures::{Textures, positions, rate_in, rate_of_space};
+use self::messages::Said;
 use self::path_walk::PathWalk;
 use self::places::{Opened, attribute_names, places, poles_of};
 use self::planes_worker::PlanesWorker;
@@ -87,6 +88,8 @@ pub struct Session {
     authored: AuthoredState,
     sound: Sound,
     hand: HandState,
+    /// Message that is about neither the output nor the pen.
+    said: Option<Said>,
 }
 
 impl Session {
@@ -113,6 +116,7 @@ impl Session {
             authored: AuthoredState::new(Space::new(&positions(&places))?),
             sound: Sound::new(library.textures.len(), rate_hz),
             hand: HandState::default(),
+            said: None,
             textures: Textures {
                 planes_ahead: PlanesWorker::new(&planes),
                 others: Vec::new(),
@@ -378,16 +382,6 @@ impl Session {
     /// Position of the stroke on the path that is played.
     pub fn path_point(&self) -> Option<SpacePoint> {
         self.authored.path_point
-    }
-
-    /// Removes the message from the status bar.
-    pub fn forget_message(&mut self) {
-        self.sound.player.message = None;
-    }
-
-    /// Shows a message in the status bar.
-    pub fn say(&mut self, message: String) {
-        self.sound.player.message = Some(shortened(message));
     }
 }
 

@@ -61,7 +61,7 @@ pub const NEW_TEXTURE: &str = "New texture";
 pub const DAMAGED_LIBRARY: &str = "A built-in library is damaged; reinstall Shagreen";
 pub const SEARCH: &str = "Search textures";
 pub const SEARCH_HINT: &str = "Search…";
-pub const NO_MATCH: &str = "No texture contains these words in its name or tags.";
+pub const NO_MATCH: &str = "No texture of this list contains these words in its name or tags. Authored textures, above, are not searched.";
 pub const PARENTS: &str = "Contributions";
 pub const PARENTS_HELP: &str = "Textures that contribute at this point, with their weights in percent. In the mode Field every texture contributes; distant ones slightly negatively. At the position of a pinned texture, only that texture plays.";
 
@@ -140,7 +140,7 @@ pub const PREPARING_HELP: &str =
     "The field over all textures is being computed. Until then, the previous texture keeps playing.";
 pub const SMOOTHED: &str = "In the mode Field, neighbors smooth this texture at its own position. Pin it (right-click) to reproduce it exactly.";
 pub const LOCKED: &str = "Pinned: the field passes through this texture exactly at its position.";
-pub const LOCK_HELP: &str = "The field passes exactly through a pinned texture at its position and is adjusted around it. An unpinned texture is smoothed by its neighbors.";
+pub const LOCK_HELP: &str = "At the position of a pinned texture, you get exactly this texture; the interpolation around it (the field) is adjusted. An unpinned texture is smoothed by its neighbors.";
 pub const EXTRAPOLATED: &str = "extrapolated";
 pub const EXTRAPOLATED_HERE: &str =
     "Extrapolated: the point is outside the convex hull of the textures, so its texture is uncertain.";
@@ -162,7 +162,7 @@ pub const OPEN_AGAIN: &str = "Open again";
 pub const OPEN_AGAIN_HELP: &str = "The output is gone. Connect it again, then open it";
 pub const STALLED: &str = "The output has stopped requesting samples; choose it again";
 pub const LIMITING: &str = "limiting";
-pub const SOURCE_HELP: &str = "Source of the texture positions. Positions from physical labels or simulated raters are not human ratings. Estimates are predicted from words, pictures or vibration.";
+pub const SOURCE_HELP: &str = "Source of the texture positions. Positions from physical labels or simulated raters are not human ratings. Estimates are predicted from words, pictures or vibration. Distances between positions of different sources mean little.";
 pub const PREDICTED_FROM_RATINGS: &str = "estimates from human ratings";
 pub const MIXED_SOURCES: &str = "mixed, not comparable";
 pub const NOBODY_FELT: &str = ", no human data";

@@ -15,7 +15,7 @@ pub const FORMAT: &str = "shagreen-evaluation-report";
 pub const MEASURED: &str = "measured on signals";
 
 /// Version of the report.
-const VERSION: &str = "1.1";
+const VERSION: &str = "1.2";
 
 /// Identifier of a method in files and figures.
 pub fn method_id(method: &Method) -> &'static str {
@@ -99,6 +99,7 @@ fn signals(check: &SignalCheck) -> Value {
         "n": check.n,
         "seconds": check.seconds,
         "error_db_mean": check.error_db_mean,
+        "model_error_db_mean": check.model_error_db_mean,
         "mean_difference_db": check.mean_difference_db,
         "largest_difference_db": check.largest_difference_db,
         "from_model_db": check.from_model_db,
@@ -290,7 +291,7 @@ mod tests {
             (&report["measured"], &report["label_sources"][0]),
             (&MEASURED.into(), &"physical".into())
         );
-        assert_eq!(report["version"], "1.1", "position caveat and shape error");
+        assert_eq!(report["version"], "1.2", "model error of the rendered textures");
         assert_eq!(report["modes"]["field"]["error_db_mean"], 2.0);
         assert_eq!(report["modes"]["field"]["shape_error_db_mean"], 1.5);
         assert!(report["position_caveat"].as_str().unwrap().contains("roughness from the vibration level"));

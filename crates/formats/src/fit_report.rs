@@ -89,11 +89,12 @@ fn draw(svg: &mut String, name: &str, report: &FitReport) -> Drawn {
     let (top, bottom) = rest.split_vertically((SIZE.1 - TITLE_HEIGHT) / 2);
     let panels = top.split_evenly((1, 3));
     plane(&panels[0], report)?;
-    by_segment(&panels[1], report, "goodness of fit (GFC) per segment", &|s| s.comparison.gfc, (0.5, 1.0))?;
+    let caption = "goodness of fit (GFC), segment and neighbors";
+    by_segment(&panels[1], report, caption, &|s| s.comparison.gfc, (0.5, 1.0))?;
     by_segment(
         &panels[2],
         report,
-        "level error per segment in dB",
+        "level error in dB, segment and neighbors",
         &|s| s.comparison.level_error_db,
         (-3.0, 3.0),
     )?;
@@ -205,7 +206,7 @@ fn chosen(report: &FitReport) -> Vec<&Segment> {
     }
 }
 
-/// Plots the measured and the model power spectral density, in dB re 1 (m/s²)²/Hz.
+/// Plots the measured and the model power spectral density, in dB re 1 (m/s²)²/Hz. The panel is too narrow for the unit.
 fn spectrum(panel: &Page<'_>, report: &FitReport, segment: &Segment) -> Drawn {
     let db = |psd: &[f64]| -> Vec<(f64, f64)> {
         let points = report.frequencies.iter().zip(psd).filter(|(f, p)| f.0 >= 5.0 && **p > 0.0);
@@ -236,7 +237,7 @@ fn spectrum(panel: &Page<'_>, report: &FitReport, segment: &Segment) -> Drawn {
         .bold_line_style(FAINT)
         .axis_style(MEASURED)
         .label_style(text(12.0))
-        .x_desc("Hz; PSD in dB re 1 (m/s²)²/Hz; gray measured, green model")
+        .x_desc("Hz; PSD in dB, gray measured, green model")
         .x_label_formatter(&|f| format!("{f:.0}"))
         .y_label_formatter(&|db| format!("{db:.0}"))
         .y_labels(7)

@@ -31,13 +31,20 @@ pub fn update<E>(
     }
 }
 
-/// Locks the file at `path` until the result is dropped; `None` if there is none. On Windows a locked file cannot be
-/// replaced, so there is no lock.
+/// Locks the file at `path` until the result is dropped, or its folder if the file does not exist yet. On Windows a locked
+/// file cannot be replaced, so there is no lock.
 fn lock(path: &Path) -> io::Result<Option<File>> {
     loop {
         let file = match bounded_file::open_to_lock(path) {
             Ok(file) => file,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                let folder = lock_folder(path);
+                // Another process may have created the file while this one waited.
+                if folder.is_some() && path.exists() {
+                    continue;
+                }
+                return Ok(folder);
+            }
             Err(error) => return Err(error),
         };
         if !cfg!(unix) {
@@ -50,6 +57,14 @@ fn lock(path: &Path) -> io::Result<Option<File>> {
             return Ok(Some(file));
         }
     }
+}
+
+/// Locks the folder of `path`; `None` where that is impossible.
+fn lock_folder(path: &Path) -> Option<File> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = File::open(folder).ok().filter(|_| cfg!(unix))?;
+    folder.lock().ok()?;
+    Some(folder)
 }
 
 /// Whether the path still leads to this file. A path that leads nowhere counts too, because nothing can be lost there.
@@ -95,22 +110,25 @@ mod tests {
     #[test]
     fn no_change_is_lost_among_many_threads() {
         let folder = tempfile::tempdir().unwrap();
+        // The file does not exist at first.
         let path = folder.path().join("n");
-        fs::write(&path, b"0").unwrap();
         let count = |present: Option<&[u8]>| {
-            let n: u32 = std::str::from_utf8(present.unwrap()).unwrap().parse().unwrap();
+            let n: u32 = std::str::from_utf8(present.unwrap_or(b"0")).unwrap().parse().unwrap();
             Ok::<_, ()>((n + 1).to_string().into_bytes())
         };
-        std::thread::scope(|scope| {
-            for _ in 0..4 {
-                scope.spawn(|| {
-                    for _ in 0..25 {
-                        update(&path, FileKind::Small, count).unwrap().unwrap();
-                    }
-                });
-            }
-        });
-        let n: u32 = fs::read_to_string(&path).unwrap().parse().unwrap();
-        assert_eq!(n, 100);
+        for _ in 0..20 {
+            std::thread::scope(|scope| {
+                for _ in 0..4 {
+                    scope.spawn(|| {
+                        for _ in 0..5 {
+                            update(&path, FileKind::Small, count).unwrap().unwrap();
+                        }
+                    });
+                }
+            });
+            let n: u32 = fs::read_to_string(&path).unwrap().parse().unwrap();
+            assert_eq!(n, 20);
+            fs::remove_file(&path).unwrap();
+        }
     }
 }

@@ -1,12 +1,12 @@
 //! Signals to compare or encode: the acceleration of a WAV file, without its stroke.
 
-use shagreen_core::dsp::dft321::{Dft321Error, dft321};
+use shagreen_core::dsp::dft321::{Dft321Error, dft321_short_time};
 use shagreen_core::recording::RawClock;
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
 
 use crate::imported::Imported;
 use crate::recording::{
-    AccelerationUnit, Channel, ColumnMap, RecordingFileError, n_channels, read_recording,
+    AccelerationUnit, Ask, Channel, ColumnMap, RecordingFileError, n_channels, read_recording,
 };
 
 /// A signal with one axis; several axes are combined by DFT321.
@@ -47,6 +47,12 @@ pub enum SignalError {
     Unclear {
         /// The missing facts.
         what: String,
+    },
+    /// The file has several channels, and the signal is one of them.
+    #[error("the file has {n_channels} channels; select the channel of the signal with --channel N, from 1")]
+    WhichChannel {
+        /// Number of channels in the file.
+        n_channels: usize,
     },
     /// The requested channel does not exist.
     #[error("there is no channel {channel}; choose a channel from 1 to {n_channels}")]
@@ -101,8 +107,12 @@ pub fn read_signal(
     };
     let file = read_recording(file_name, bytes, sidecar, &map).map_err(|error| match error {
         RecordingFileError::NeedsAnswers(needed) => {
-            let asked = needed.questions.iter().filter(|question| question.guess.is_none());
-            SignalError::Unclear { what: asked.map(|q| q.text.as_str()).collect::<Vec<_>>().join("; ") }
+            let asked = || needed.questions.iter().filter(|question| question.guess.is_none());
+            if asked().next().is_some() && asked().all(|question| question.what == Ask::Channels) {
+                SignalError::WhichChannel { n_channels: n_channels(bytes) }
+            } else {
+                SignalError::Unclear { what: asked().map(|q| q.text.as_str()).collect::<Vec<_>>().join("; ") }
+            }
         }
         other => SignalError::File(other),
     })?;
@@ -114,7 +124,8 @@ pub fn read_signal(
     if let Some(index) = axes.iter().find_map(|axis| axis.iter().position(|x| !x.is_finite())) {
         return Err(SignalError::NotFinite { index });
     }
-    let samples_mps2 = if let [axis] = axes.as_slice() { axis.to_vec() } else { dft321(&axes)? };
+    let samples_mps2 =
+        if let [axis] = axes.as_slice() { axis.to_vec() } else { dft321_short_time(&axes, rate)? };
     let mut warnings = file.warnings;
     warnings.extend(file.questions.into_iter().map(|question| question.text));
     if sidecar.is_none() && hints.full_scale_mps2.is_none() {
@@ -192,8 +203,11 @@ mod tests {
         };
         assert_eq!(of(Some(1)).unwrap().value.samples_mps2, [5.0, 0.0, -5.0, 0.0]);
         assert!(matches!(of(Some(2)), Err(SignalError::Channel { channel: 3, n_channels: 2 })));
-        let unclear = of(None).unwrap_err();
-        assert!(matches!(unclear, SignalError::Unclear { .. }) && unclear.to_string().contains("--channel"));
+        // The scale is known, so the message asks for the channel alone.
+        assert_eq!(
+            of(None).unwrap_err().to_string(),
+            "the file has 2 channels; select the channel of the signal with --channel N, from 1"
+        );
     }
 
     #[test]

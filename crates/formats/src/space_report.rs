@@ -11,9 +11,10 @@ use shagreen_core::people::ratings::{Agreement, RaterFit};
 use shagreen_core::people::sorting::SorterFit;
 use shagreen_core::space::selection::PaperChain;
 use shagreen_core::space::space_build::{
-    Adjective, Axis, DegenerateScaling, PlacedBy, Prediction, SpaceBuild, Stability, position_errors,
-    stress_in_words, stress_of_random_data, validation_summary,
+    Adjective, Axis, DegenerateScaling, PlacedBy, Prediction, SpaceBuild, Stability, few_judges,
+    position_errors, stress_in_words, stress_of_random_data, validation_summary,
 };
+use shagreen_core::words::counted;
 
 pub use crate::space_report::figures::{RATING_FIGURE, figure_names, space_figures};
 
@@ -21,7 +22,7 @@ pub use crate::space_report::figures::{RATING_FIGURE, figure_names, space_figure
 pub const FORMAT: &str = "shagreen-space-report";
 
 /// Version of the report.
-const VERSION: &str = "1.4";
+const VERSION: &str = "1.5";
 
 /// Returns the report: all results of the analysis in one JSON object.
 pub fn space_report(build: &SpaceBuild) -> Value {
@@ -167,6 +168,8 @@ fn adjective(adjective: &Adjective) -> Value {
         "icc_single": icc(|a| [a.single.value, a.single.low, a.single.high]),
         "icc_mean": icc(|a| [a.average.value, a.average.low, a.average.high]),
         "alpha": icc(|a| [a.alpha.value, a.alpha.low, a.alpha.high]),
+        "icc_raters": agreement.map(|agreement| agreement.participants.len()),
+        "icc_textures": agreement.map(|agreement| agreement.textures.len()),
         "why_no_agreement": adjective.agreement.as_ref().err().map(ToString::to_string),
     })
 }
@@ -185,6 +188,7 @@ fn axis(build: &SpaceBuild, axis: &Axis) -> Value {
         "cv_r": v.map(|v| v.cv_r),
         "cv_rms_percent": v.map(|v| v.cv_rms_percent),
         "nested_cv_r": v.map(|v| v.nested_cv_r),
+        "nested_cv_r_deviation": v.and_then(|v| v.nested_cv_r_deviation),
         "nested_cv_plain_r": v.map(|v| v.nested_cv_plain_r),
         "nested_cv_rms_percent": v.map(|v| v.nested_cv_rms_percent),
         "mean_rms_percent": v.map(|v| v.mean_rms_percent),
@@ -242,14 +246,15 @@ fn standard_errors(build: &SpaceBuild, texture: usize) -> [Option<f64>; 2] {
 /// A one-line description of the data behind all figures.
 pub fn space_subtitle(build: &SpaceBuild) -> String {
     let sorters = match &build.perceptual {
-        Some(space) => format!("{} sorters", space.similarity.agreements.len()),
+        Some(space) => counted(space.similarity.agreements.len(), "sorter"),
         None => "no sorts".to_owned(),
     };
+    let few = few_judges(build).map_or_else(String::new, |few| format!("; {few}"));
     format!(
-        "{} textures, {}: {sorters}, {} raters, seed {}; {} from {}, feature selection {}",
-        build.textures.len(),
+        "{}, {}: {sorters}, {}, seed {}; {} from {}, feature selection {}{few}",
+        counted(build.textures.len(), "texture"),
         build.source.label(),
-        build.raters.len(),
+        counted(build.raters.len(), "rater"),
         build.options.seed,
         match placed_by(build) {
             Some(PlacedBy::Felt) if build.perceptual.is_none() => "mean ratings, predictions".to_owned(),

@@ -213,13 +213,26 @@ pub fn write_wav_as(
     sidecar: &SidecarV1,
     encoding: WavEncoding,
 ) -> Result<(), WavWriteError> {
+    write_wav_scaled(path, samples, sidecar, (encoding.samples, encoding.full_scale(samples)))
+}
+
+/// As [`write_wav_as`], with this type of the samples, and with the acceleration of a sample of 1 in the unit of `samples`, above
+/// zero. Signals that are written at one scale keep the differences between their levels. Integers are clipped at full scale.
+///
+/// # Errors
+/// See [`WavWriteError`]; existing files are then unchanged.
+pub fn write_wav_scaled(
+    path: &Path,
+    samples: &[f32],
+    sidecar: &SidecarV1,
+    (of, scale): (SampleType, f64),
+) -> Result<(), WavWriteError> {
     let beside = sidecar_path(path);
     if beside == path {
         return Err(WavWriteError::Name { path: path.to_path_buf() });
     }
     check_length(samples.len() as u64)?;
-    let scale = encoding.full_scale(samples);
-    let wav = pack(samples, scale, sidecar.rate_hz, encoding.samples)?;
+    let wav = pack(samples, scale, sidecar.rate_hz, of)?;
     let full_scale = scale * sidecar.full_scale;
     // One line per field, and one per row of the trace.
     let json = layout::to_bytes(&SidecarV1 { full_scale, ..sidecar.clone() }, 2);
@@ -241,7 +254,7 @@ pub fn write_samples(path: &Path, samples: &[f32], rate_hz: u32) -> Result<(), W
 mod tests {
     use super::{
         FORMAT, HEADER_BYTES, MAX_SAMPLES, ParentV1, SidecarV1, TraceV1, UNITS, VERSION, WavWriteError,
-        check_length, sidecar_path, write_wav, write_wav_as,
+        check_length, sidecar_path, write_wav, write_wav_as, write_wav_scaled,
     };
     use crate::wav_encoding::{Level, SampleType, WavEncoding, pack};
     use std::fs;
@@ -332,6 +345,22 @@ mod tests {
         .unwrap();
         let beside: SidecarV1 = serde_json::from_slice(&fs::read(sidecar_path(&path)).unwrap()).unwrap();
         assert_eq!(beside.full_scale, 1.0);
+    }
+
+    #[test]
+    fn signals_at_one_scale_keep_the_ratio_of_their_levels() {
+        let folder = tempfile::tempdir().unwrap();
+        let [loud, quiet] = [[0.5_f32, -4.0], [0.25, -2.0]];
+        let scale = WavEncoding { samples: SampleType::Pcm16, level: Level::Peak }.full_scale(&loud);
+        let read = |name: &str, samples: &[f32]| {
+            let path = folder.path().join(name);
+            write_wav_scaled(&path, samples, &sidecar(), (SampleType::Pcm16, scale)).unwrap();
+            let mut reader = hound::WavReader::open(&path).unwrap();
+            reader.samples::<i32>().map(|x| f64::from(x.unwrap())).collect::<Vec<f64>>()
+        };
+        let (loud, quiet) = (read("loud.wav", &loud), read("quiet.wav", &quiet));
+        // Each number is rounded to a whole one.
+        assert!(loud.iter().zip(&quiet).all(|(loud, quiet)| (loud - 2.0 * quiet).abs() <= 1.5), "{quiet:?}");
     }
 
     #[test]

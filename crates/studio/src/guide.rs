@@ -18,7 +18,7 @@ macro_rules! page {
 }
 
 /// All pages, the table of contents first.
-pub static PAGES: [GuidePage; 44] = [
+pub static PAGES: [GuidePage; 45] = [
     page!("index"),
     page!("first-steps"),
     page!("terms"),
@@ -61,6 +61,7 @@ pub static PAGES: [GuidePage; 44] = [
     page!("height-maps"),
     page!("render-and-play"),
     page!("evaluate"),
+    page!("measures"),
     page!("command-line"),
     page!("files-and-formats"),
 ];

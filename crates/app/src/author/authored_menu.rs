@@ -5,6 +5,7 @@ use shagreen_formats::project::AuthoredTexture;
 
 use crate::author::context_menu::{context_menu, menu_entry};
 use crate::author::new_texture::copy_of;
+use crate::author::whole_space::{own_textures, whole_space_switch};
 use crate::command::Command;
 use crate::command::clipboard::ClipboardCommand;
 use crate::command::relief::{ReliefCommand, ReliefOf};
@@ -54,6 +55,12 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture) -> Opti
     asked = menu_entry(ui, words::DUPLICATE, words::DUPLICATE_HELP, duplicate).or(asked);
     let begin = Command::Relief(ReliefCommand::Begin(Some(ReliefOf::Authored(key)), None));
     asked = menu_entry(ui, relief::MENU, relief::MENU_HELP, begin).or(asked);
+    for own in own_textures(panel, texture) {
+        if let Some(switch) = whole_space_switch(ui, panel, own) {
+            asked = Some(switch);
+            ui.close();
+        }
+    }
     ui.separator();
     let copy = Command::Clipboard(ClipboardCommand::Copy(Some(key)));
     asked = menu_entry(ui, clipboard::COPY, clipboard::COPY_HELP, copy).or(asked);

@@ -8,18 +8,20 @@ use crate::author::authored_menu::{authored_keys, authored_menu};
 use crate::author::compare_ui::compare_ui;
 use crate::author::context_menu::context_menu;
 use crate::author::new_texture::{fresh, of_snapshot};
+use crate::author::renamed_row::{begin_rename, is_renamed, rename_ui};
+use crate::author::whole_space::own_help;
 use crate::command::Command;
 use crate::look::theme::{RADIUS, tokens};
 use crate::panel::Panel;
-use crate::state::edit::Edit;
+use crate::state::edit::{Edit, name_of_snapshot};
 use crate::strings::{self, authored as words};
 
 /// Height of a row, in points.
 const ROW: f32 = 22.0;
 /// Height of a snapshot button, in points.
 const CHIP: f32 = 18.0;
-/// Maximum height of the list, in points.
-const LIST_HEIGHT: f32 = 5.0 * ROW;
+/// Maximum height of the list in a large window, in points.
+const LIST_HEIGHT: f32 = 12.0 * ROW;
 /// Maximum share of the column height that the list takes.
 const LIST_SHARE: f32 = 0.21;
 /// Center of the space.
@@ -38,7 +40,8 @@ pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         );
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.button(words::ADD).on_hover_text(words::ADD_HELP).clicked() {
-                commands.push(Command::Edit(Edit::Author(fresh(panel, MIDDLE))));
+                // Its name is selected, so that typing replaces it.
+                commands.extend([Command::Edit(Edit::Author(fresh(panel, MIDDLE))), Command::RenameSelected]);
             }
         });
     });
@@ -81,7 +84,7 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
         .widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, words::select(&texture.name)));
     if is_selected {
         ui.painter().rect_filled(area, f32::from(RADIUS), t.chosen);
-    } else if response.hovered() || response.has_focus() {
+    } else if response.hovered() || response.has_focus() || response.context_menu_opened() {
         ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
     }
     let dot = pos2(area.left() + 11.0, area.center().y);
@@ -95,17 +98,25 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
         ui.painter().text(corner, egui::Align2::RIGHT_CENTER, side.letter(), font, color);
         room.max.x -= 16.0;
     }
-    let mut name = ui.new_child(egui::UiBuilder::new().max_rect(room));
-    let shown = if texture.name.trim().is_empty() { words::UNNAMED } else { &texture.name };
-    name.add(Label::new(RichText::new(shown).color(color)).truncate().selectable(false));
+    if is_selected && is_renamed(ui, texture.key) {
+        commands.extend(rename_ui(ui, room, texture));
+    } else {
+        let mut name = ui.new_child(egui::UiBuilder::new().max_rect(room));
+        let shown = if texture.name.trim().is_empty() { words::UNNAMED } else { &texture.name };
+        name.add(Label::new(RichText::new(shown).color(color)).truncate().selectable(false));
+    }
     if response.clicked() {
         commands.push(Command::Edit(Edit::Select(texture.key)));
+    }
+    if response.double_clicked() {
+        begin_rename(ui, texture);
     }
     commands.extend(authored_keys(&response, panel, texture));
     commands.extend(authored_menu(&response, panel, texture));
     let mut help =
         format!("{}\n{}", texture.name, strings::place_in_words(texture.at, panel.session.poles()));
-    for more in [&texture.tags.join(", "), &texture.notes] {
+    let own = own_help(panel, texture).unwrap_or_default();
+    for more in [texture.tags.join(", ").as_str(), &texture.notes, own] {
         if !more.is_empty() {
             help = format!("{help}\n{more}");
         }
@@ -143,7 +154,9 @@ fn snapshots_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
                 }
             });
             let place = strings::place_in_words(snapshot.at, panel.session.poles());
-            response.on_hover_text(format!("{name}\n{place}\n{}", words::SNAPSHOTS_HELP));
+            let is_there = panel.project.authored.iter().any(|texture| texture.key == snapshot.key);
+            let effect = words::restore_help(name_of_snapshot(panel.project, index), is_there);
+            response.on_hover_text(format!("{name}\n{place}\n{effect}\n{}", words::SNAPSHOTS_HELP));
         }
     });
     ui.spacing_mut().interact_size.y = height;

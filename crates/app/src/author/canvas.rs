@@ -51,8 +51,6 @@ const SITE_SHARE: f32 = 0.03;
 const MAX_SITE_RADIUS: f32 = 28.0;
 /// Size of the authored point while it is not pointed at, in points.
 const POINT_SIZE: Vec2 = vec2(22.0, 22.0);
-/// Size of an authored point that is not selected, in points.
-const OTHER_POINT: Vec2 = vec2(17.0, 17.0);
 const BIG_STEP: f64 = 5.0;
 
 /// Widget id of an authored point, by its key. It does not depend on the selection, so that a drag continues when the
@@ -85,6 +83,9 @@ const WRAPPING_WIDTH: f32 = 900.0;
 const NARROW_WIDTH: f32 = 520.0;
 /// Height of one row of controls, in points.
 const BAR_ROW: f32 = 25.0;
+/// Distances of the controls from the upper edge of the canvas, and of the textures from the controls, in points.
+const BAR_TOP: f32 = 3.0;
+const BELOW_BAR: f32 = 4.0;
 
 /// Distance beyond the view within which items are still drawn, in points.
 const AROUND_VIEW: f32 = 30.0;
@@ -106,8 +107,9 @@ pub fn canvas_ui(
     // Further rows of controls move the canvas down, so that they cover no texture.
     let may_wrap = state.tool.is_on && outer.width() < WRAPPING_WIDTH;
     let bar_height = state.bar.as_ref().map_or(0.0, Rect::height);
-    let bar_height = if may_wrap { bar_height.max(2.0 * BAR_ROW) } else { bar_height };
-    let top = 40.0 + (bar_height - BAR_ROW).max(0.0);
+    let bar_height = bar_height.max(if may_wrap { 2.0 * BAR_ROW } else { BAR_ROW });
+    // The picture of a texture at the upper edge of the space is below the controls, too.
+    let top = BAR_TOP + bar_height + radius_for(outer.height()) + BELOW_BAR;
     let rect = Rect::from_min_max(outer.min + vec2(36.0, top), outer.max - vec2(36.0, FOOT + AROUND_VIEW));
     state.view = follow_view(ui, Axes { rect, view: state.view }, &background);
     let axes = Axes { rect, view: state.view };
@@ -189,7 +191,11 @@ fn dragged_by_primary(ui: &Ui, background: &Response) -> Option<Pos2> {
 
 /// Radius of the picture of a texture, in points.
 fn site_radius(axes: Axes) -> f32 {
-    (SITE_SHARE * axes.rect.height()).clamp(SITE_RADIUS, MAX_SITE_RADIUS)
+    radius_for(axes.rect.height())
+}
+
+fn radius_for(height: f32) -> f32 {
+    (SITE_SHARE * height).clamp(SITE_RADIUS, MAX_SITE_RADIUS)
 }
 
 fn move_to(point: SpacePoint) -> Command {

@@ -50,7 +50,7 @@ pub(crate) fn compare_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     if n_answers > 0 {
         let result =
             RichText::new(words::right(n_right, n_answers, compare.chance())).small().color(t.text_weak);
-        ui.add(Label::new(result).selectable(false));
+        ui.add(Label::new(result).selectable(false)).on_hover_text(words::RESULT_HELP);
     }
     asked.into_iter().map(Command::Compare).collect()
 }

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use egui::{
-    DragValue, Label, PopupCloseBehavior, RichText, Role, Sense, TextEdit, Ui, WidgetInfo, containers::menu,
-    vec2,
+    Align, Button, DragValue, Label, Layout, PopupCloseBehavior, RichText, Role, Sense, TextEdit, Ui,
+    WidgetInfo, containers::menu, vec2,
 };
 
 use shagreen_formats::picture::Picture;
@@ -32,15 +32,19 @@ pub(crate) fn details_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let button = menu::MenuButton::new(words::DETAILS).config(config);
     let (response, _) = button.ui(ui, |ui| {
         ui.set_width(WIDTH);
-        commands.extend(content_ui(ui, panel));
+        // A menu is justified, which would tear sentences apart.
+        ui.vertical(|ui| commands.extend(content_ui(ui, panel)));
     });
     response.on_hover_text(words::DETAILS_HELP);
     commands
 }
 
 fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+    let t = tokens(ui.ctx());
     let texture = panel.project.texture();
     let mut commands = Vec::new();
+    // Without a fill, a button of a menu looks like text.
+    let button = |text: &'static str| Button::new(text).fill(t.control);
     let heading = |ui: &mut Ui, text: &str| {
         ui.add(Label::new(RichText::new(text).strong()).selectable(false));
     };
@@ -71,22 +75,27 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     }
     heading(ui, words::PICTURE);
     commands.extend(picture_ui(ui, texture));
-    if ui.button(relief::MENU).on_hover_text(relief::MENU_HELP).clicked() {
+    if ui.add(button(relief::MENU)).on_hover_text(relief::MENU_HELP).clicked() {
         let of = Some(ReliefOf::Authored(texture.key));
         commands.push(Command::Relief(ReliefCommand::Begin(of, None)));
         ui.close();
     }
     ui.add_space(GAP);
+    ui.separator();
     ui.horizontal(|ui| {
-        if ui.button(words::DUPLICATE).on_hover_text(words::DUPLICATE_HELP).clicked() {
+        if ui.add(button(words::DUPLICATE)).on_hover_text(words::DUPLICATE_HELP).clicked() {
             commands.push(Command::Edit(Edit::Author(copy_of(panel, texture))));
             ui.close();
         }
-        let can_go = panel.project.authored.len() > 1;
-        if ui.add_enabled(can_go, egui::Button::new(words::DELETE)).clicked() {
-            commands.push(Command::Edit(Edit::Remove(texture.key)));
-            ui.close();
-        }
+        // Apart from the others, so that no click meant for them deletes.
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let can_go = panel.project.authored.len() > 1;
+            let delete = ui.add_enabled(can_go, button(words::DELETE));
+            if delete.on_disabled_hover_text(words::IS_LAST).clicked() {
+                commands.push(Command::Edit(Edit::Remove(texture.key)));
+                ui.close();
+            }
+        });
     });
     commands
 }

@@ -21,6 +21,16 @@ pub(crate) fn clicked(response: &Response, panel: &Panel<'_>, texture: usize) ->
     exact.or_else(|| Some(Edit::Solo(Some(panel.session.textures()[texture].id.clone()))))
 }
 
+/// Whether a texture that plays alone belongs to the selected authored texture and plays there as well: pinned in the mode Field,
+/// at its position, and without a shape. A generated texture is one.
+pub(crate) fn is_own_exactly(panel: &Panel<'_>, texture: usize) -> bool {
+    let authored = panel.project.texture();
+    panel.session.is_own(texture)
+        && authored.blend.is_locked(&panel.session.textures()[texture].id)
+        && panel.session.position(texture) == Some(authored.at)
+        && authored.shape.is_neutral()
+}
+
 /// Edit that makes the selected authored texture exactly a texture of the library: at its position, in the mode Field, and
 /// with no other pin. `None` if the texture has no position.
 pub(crate) fn taken(panel: &Panel<'_>, texture: usize) -> Option<Edit> {

@@ -6,7 +6,7 @@ pub mod view;
 
 use std::sync::Arc;
 
-use egui::{Align, ComboBox, Label, Layout, RichText, Ui, vec2};
+use egui::{Align, Color32, ComboBox, Label, Layout, RichText, TextStyle, Ui, vec2};
 use shagreen_formats::figure::Figure;
 use shagreen_formats::library::id_from_name;
 use shagreen_formats::thresholds::ThresholdKind;
@@ -206,10 +206,23 @@ fn said_ui(ui: &mut Ui, view: View, span: Option<Span>, seen: &Seen<'_>) {
         (None, Some((level_db, multiple))) => {
             (words::level_now(level_db, multiple), words::level_now_in_full(level_db, multiple), t.text)
         }
-        (None, None) => (words::unit(view).to_owned(), words::view_help(view).to_owned(), t.text_weak),
+        (None, None) if fits(ui, words::unit(view)) => {
+            (words::unit(view).to_owned(), words::view_help(view).to_owned(), t.text_weak)
+        }
+        (None, None) => {
+            let help = format!("{}\n{}", words::unit(view), words::view_help(view));
+            (words::short_unit(view).to_owned(), help, t.text_weak)
+        }
     };
     let label = Label::new(RichText::new(text).small().color(color)).truncate().selectable(false);
     ui.add(label.show_tooltip_when_elided(false)).on_hover_text(help);
+}
+
+/// Whether a small text fits into the rest of the row.
+fn fits(ui: &Ui, text: &str) -> bool {
+    let font = TextStyle::Small.resolve(ui.style());
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, Color32::PLACEHOLDER);
+    galley.size().x <= ui.available_width()
 }
 
 /// Draws the choice of detection thresholds.

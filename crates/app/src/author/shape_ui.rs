@@ -1,12 +1,13 @@
 //! Shape of an authored texture: seven sliders, each with a button that makes it neutral. A slider that has nothing to act
 //! on is disabled and says why.
 
-use egui::{Align, Button, CollapsingHeader, Label, Layout, Slider, Ui, vec2};
+use egui::{Align, Button, CollapsingHeader, Label, Layout, Slider, SliderClamping, Ui, vec2};
 use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::shape::{Shape, ShapeControl};
 
 use crate::command::Command;
 use crate::look::icons::{ICON_RESTART_ALT, icon_button};
+use crate::look::notice::show_notice;
 use crate::look::theme::GAP;
 use crate::panel::Panel;
 use crate::state::edit::Edit;
@@ -95,6 +96,11 @@ fn control_ui(ui: &mut Ui, control: ShapeControl, before: f64, is_useful: bool) 
     if is_reset {
         return Some(Edit::SetShape(control, control.neutral()));
     }
+    let limits = control.limits();
+    if is_useful && value != before && !limits.contains(&value) {
+        show_notice(ui.ctx(), words::limited(control));
+        value = value.clamp(*limits.start(), *limits.end());
+    }
     // A number field that loses the keyboard focus reads its rounded text again, which is no change by the user. A screen
     // reader may set a slider that is not enabled.
     let is_own_text = words::number(control, before).parse() == Ok(value);
@@ -106,6 +112,8 @@ fn slider(control: ShapeControl, value: &mut f64) -> Slider<'_> {
     let is_logarithmic = matches!(control, ShapeControl::Grain | ShapeControl::Softness);
     // The number is not rounded: a slider that rounds would edit the project by itself.
     let slider = Slider::new(value, control.limits())
+        // A number that is out of range is said to be so.
+        .clamping(SliderClamping::Never)
         .logarithmic(is_logarithmic)
         .smart_aim(false)
         .custom_formatter(move |value, _| words::number(control, value));

@@ -15,6 +15,7 @@ use crate::panel::Panel;
 use crate::state::edit::Edit;
 use crate::strings::authored::copy_of;
 use crate::strings::{relief, textures as words};
+use shagreen_studio::place_estimate::{can_estimate, place_by_estimate};
 
 /// Width of the menu, in points.
 const WIDTH: f32 = 150.0;
@@ -51,6 +52,7 @@ pub(crate) fn texture_menu(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Op
     if ui.button(words::DUPLICATE).on_hover_text(words::DUPLICATE_HELP).clicked() {
         asked = Some(Command::Edit(duplicated(panel, texture)));
     }
+    asked = place_button(ui, panel, texture).or(asked);
     asked = relief_button(ui, panel, texture).or(asked);
     asked = remove_button(ui, panel, texture).or(asked);
     if let Some(switch) = whole_space_switch(ui, panel, texture) {
@@ -62,6 +64,29 @@ pub(crate) fn texture_menu(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Op
         asked = lock_entry(ui, panel, texture).or(asked);
     }
     asked
+}
+
+/// Draws the button that estimates the position of an added texture; nothing for a texture that has one. It is disabled where no
+/// position can be estimated.
+fn place_button(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Option<Command> {
+    let joined = panel.joined_index(texture)?;
+    if panel.session.position(texture).is_some() {
+        return None;
+    }
+    let entry = panel.project.joined.get(joined)?;
+    // A built space and chosen attributes place only what has been rated.
+    let is_of_files = panel.project.space.is_none() && panel.project.axes.is_none();
+    let is_slow_enough = entry.model.rate().0 <= panel.session.space_rate_hz();
+    let can_place = is_of_files && is_slow_enough && can_estimate(panel.session.library());
+    let button = ui.add_enabled(can_place, Button::new(words::ESTIMATE_PLACE));
+    let button = button.on_hover_text(words::ESTIMATE_PLACE_HELP).on_disabled_hover_text(words::CANNOT_PLACE);
+    if !button.clicked() {
+        return None;
+    }
+    let mut placed = TextureEntry::clone(entry);
+    place_by_estimate(&mut placed, panel.session.library());
+    let name = panel.session.textures()[texture].name.clone();
+    Some(Command::Edit(Edit::PlaceTexture { joined, name, entry: Arc::new(placed) }))
 }
 
 /// Draws the button that gives a texture a relief; it is disabled for a texture path.

@@ -181,7 +181,7 @@ fn text_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize, area: Rect, end: f32)
         }
         None if !is_placed => strings::NOT_PLACED_YET.to_owned(),
         None if entry.provenance == Provenance::Restricted => strings::import::RESTRICTED_SHORT.to_owned(),
-        None => entry.tags.join(", "),
+        None => only_in(panel, texture).unwrap_or_else(|| entry.tags.join(", ")),
     };
     text.add(Label::new(RichText::new(below).small().color(t.text_weak)).truncate().selectable(false));
 }

@@ -23,6 +23,7 @@ use crate::command::Command;
 use crate::look::plot::title;
 use crate::look::sheet_frame::sheet;
 use crate::look::spectrum_plot::{SpectrumLine, spectra_plot};
+use crate::look::text_selection::select_all;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::panel::Panel;
 use crate::state::edit::Edit;
@@ -121,6 +122,7 @@ impl TextureSheet {
         let field = ui.add(field).accessible_name(words::NAME).on_hover_text(words::RENAME_HELP);
         if std::mem::take(&mut self.wants_name) {
             field.request_focus();
+            select_all(ui.ctx(), field.id, &name);
         }
         let is_named = !name.trim().is_empty();
         let is_new = field.changed() && is_named && name.trim() != entry.name;

@@ -1,6 +1,7 @@
 //! The switch of an added texture between the whole space and the authored textures that pin it.
 
 use egui::{Label, RichText, Ui};
+use shagreen_formats::project::AuthoredTexture;
 
 use crate::command::Command;
 use crate::look::theme::tokens;
@@ -36,6 +37,18 @@ pub(crate) fn only_in(panel: &Panel<'_>, texture: usize) -> Option<String> {
     let id = &panel.session.textures()[texture].id;
     let users = panel.project.authored.iter().filter(|authored| authored.blend.locked.contains(id));
     Some(words::only_in(&users.map(|authored| authored.name.as_str()).collect::<Vec<_>>()))
+}
+
+/// Textures that only the authored textures that pin them use, and that this one pins.
+pub(crate) fn own_textures(panel: &Panel<'_>, authored: &AuthoredTexture) -> Vec<usize> {
+    let pinned = authored.blend.locked.iter().filter_map(|id| panel.session.index_of(id));
+    pinned.filter(|texture| panel.session.is_own(*texture)).collect()
+}
+
+/// Why the textures of [`own_textures`] are not among those of the space while another authored texture is selected; `None`
+/// without any.
+pub(crate) fn own_help(panel: &Panel<'_>, authored: &AuthoredTexture) -> Option<&'static str> {
+    (!own_textures(panel, authored).is_empty()).then_some(words::OWN_HELP)
 }
 
 /// What the switch changes.

@@ -1,14 +1,14 @@
 //! Draws a chart of a figure: points, lines and labels, in the colors of the theme.
 
 use egui::{
-    Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui, Vec2,
-    WidgetInfo, pos2, vec2,
+    Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, StrokeKind, TextStyle, Ui,
+    Vec2, WidgetInfo, pos2, vec2,
 };
 use egui_plot::{GridInput, GridMark, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
 use shagreen_formats::figure::{Chart, Mark, Point, Scale, Series, Tone};
 
 use crate::look::label_places::{Placed, Wish, label_places, remembered_places};
-use crate::look::plot::{fixed, x_axis, y_axis};
+use crate::look::plot::{LABEL_SPACINGS, fixed, x_axis, y_axis};
 use crate::look::theme::{GAP, Tokens, tokens, tone_color};
 
 /// Radius of a dot in points.
@@ -24,6 +24,9 @@ pub(crate) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
     // Numbers are as close together as is legible.
     let mut across = x_axis().label(RichText::new(&chart.x_label).small());
     let scale = chart.x_scale;
+    if let Some(highest) = highest_whole(chart) {
+        across = across.label_spacing(whole_spacing(ui, highest));
+    }
     if scale == Scale::Logarithmic {
         across =
             across.formatter(move |mark, _| format!("{}", round_to_digits(scale.coordinate(mark.value))));
@@ -78,6 +81,22 @@ pub(crate) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
         let at = on_screen(chart, &shown.transform, point);
         pointed_ui(ui, point, at, shown.response.rect, t);
     }
+}
+
+/// Highest number on the horizontal axis if all points are at whole numbers from zero upwards.
+fn highest_whole(chart: &Chart) -> Option<f64> {
+    let xs = || chart.series.iter().flat_map(|series| &series.points).map(|point| point.x);
+    let is_whole = chart.x_scale == Scale::Linear && xs().all(|x| x >= 0.0 && x.fract() == 0.0);
+    xs().reduce(f64::max).filter(|_| is_whole)
+}
+
+/// Distance of the numbers from which they are shown: short ones may be closer together than long ones.
+fn whole_spacing(ui: &Ui, highest: f64) -> Rangef {
+    const BETWEEN: f32 = 8.0;
+    let font = TextStyle::Body.resolve(ui.style());
+    let galley = ui.painter().layout_no_wrap(format!("{highest:.0}"), font, Color32::PLACEHOLDER);
+    let least = (galley.size().x + BETWEEN).min(LABEL_SPACINGS[0].min);
+    Rangef::new(least, least + 1.0)
 }
 
 /// Numbers on a logarithmic axis: 1, 2 and 5 of each decade.
@@ -242,7 +261,32 @@ fn pointed_ui(ui: &Ui, point: &Point, at: Pos2, area: Rect, t: &Tokens) {
 
 #[cfg(test)]
 mod tests {
-    use super::{round_numbers, round_to_digits, thinned};
+    use super::{highest_whole, round_numbers, round_to_digits, thinned};
+    use shagreen_formats::figure::{Chart, Mark, Point, Scale, Series, Tone};
+
+    /// Numbers of dimensions may be close together, values between them may not.
+    #[test]
+    fn an_axis_of_whole_numbers_is_known() {
+        let chart = |xs: &[f64], x_scale: Scale| {
+            let points = xs.iter().map(|x| Point::new(*x, 0.0)).collect();
+            let series = Series { name: String::new(), mark: Mark::Line, tone: Tone::Main, points };
+            Chart {
+                title: String::new(),
+                x_label: String::new(),
+                y_label: String::new(),
+                is_isotropic: false,
+                x_scale,
+                shown: None,
+                series: vec![series],
+                source: String::new(),
+            }
+        };
+        assert_eq!(highest_whole(&chart(&[1.0, 2.0, 10.0], Scale::Linear)), Some(10.0));
+        assert_eq!(highest_whole(&chart(&[1.0, 2.5], Scale::Linear)), None);
+        assert_eq!(highest_whole(&chart(&[-1.0, 2.0], Scale::Linear)), None);
+        assert_eq!(highest_whole(&chart(&[1.0, 10.0], Scale::Logarithmic)), None);
+        assert_eq!(highest_whole(&chart(&[], Scale::Linear)), None);
+    }
 
     #[test]
     fn an_axis_of_ratios_has_round_numbers() {

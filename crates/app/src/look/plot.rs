@@ -1,7 +1,9 @@
 //! Common parts of all plots in the window.
 
+use std::ops::RangeInclusive;
+
 use egui::{Color32, Label, Rangef, RichText, Sense, Ui, vec2};
-use egui_plot::{AxisHints, Plot};
+use egui_plot::{AxisHints, GridMark, Plot};
 
 use crate::look::theme::tokens;
 
@@ -16,7 +18,8 @@ pub(crate) fn title(ui: &mut Ui, text: &str, unit: &str) {
 
 /// Distances between labels of the horizontal and of the vertical axis up to which they are hidden and from which they
 /// are shown, in points. In between they would be translucent, and hard to read.
-const LABEL_SPACINGS: [Rangef; 2] = [Rangef { min: 33.0, max: 34.0 }, Rangef { min: 16.0, max: 17.0 }];
+pub(crate) const LABEL_SPACINGS: [Rangef; 2] =
+    [Rangef { min: 33.0, max: 34.0 }, Rangef { min: 16.0, max: 17.0 }];
 
 /// Horizontal axis whose labels are opaque.
 pub(crate) fn x_axis<'a>() -> AxisHints<'a> {
@@ -26,6 +29,15 @@ pub(crate) fn x_axis<'a>() -> AxisHints<'a> {
 /// Vertical axis whose labels are opaque.
 pub(crate) fn y_axis<'a>() -> AxisHints<'a> {
     AxisHints::new_y().label_spacing(LABEL_SPACINGS[1])
+}
+
+/// Writes the numbers of a horizontal axis that begins at `start`, except the one there: the lowest number of the
+/// vertical axis is at that corner.
+pub(crate) fn after_start(
+    start: f64,
+    written: impl Fn(f64) -> String,
+) -> impl Fn(GridMark, &RangeInclusive<f64>) -> String {
+    move |mark, _| if mark.value <= start { String::new() } else { written(mark.value) }
 }
 
 /// Plot that the pointer cannot move or zoom, and the Tab key does not reach.
@@ -54,7 +66,15 @@ pub(crate) fn nice_step(range: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::nice_step;
+    use super::{after_start, nice_step};
+    use egui_plot::GridMark;
+
+    #[test]
+    fn the_corner_of_a_plot_has_one_number() {
+        let written = after_start(-10.0, |secs| format!("{secs:.0} s"));
+        let at = |value: f64| written(GridMark { value, step_size: 1.0 }, &(-10.0..=0.0));
+        assert_eq!([at(-10.0), at(-9.0), at(0.0)], ["", "-9 s", "0 s"]);
+    }
 
     #[test]
     fn steps_are_round_and_few() {

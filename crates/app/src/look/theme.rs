@@ -20,6 +20,10 @@ pub struct Tokens {
     pub control: Color32,
     /// Controls under the pointer.
     pub control_hovered: Color32,
+    /// Outline of controls that are not pointed at, and of text fields; transparent where their fill suffices.
+    pub control_line: Color32,
+    /// Text fields.
+    pub field: Color32,
     /// Thin lines.
     pub line: Color32,
     /// Primary text.
@@ -51,6 +55,8 @@ pub const DARK: Tokens = Tokens {
     raised: Color32::from_rgb(0x22, 0x27, 0x2B),
     control: Color32::from_rgb(0x2D, 0x34, 0x39),
     control_hovered: Color32::from_rgb(0x39, 0x42, 0x48),
+    control_line: Color32::TRANSPARENT,
+    field: Color32::from_rgb(0x12, 0x15, 0x17),
     line: Color32::from_rgb(0x33, 0x3B, 0x41),
     text: Color32::from_rgb(0xE9, 0xEC, 0xEB),
     text_weak: Color32::from_rgb(0xA3, 0xAE, 0xB2),
@@ -84,6 +90,8 @@ pub const LIGHT: Tokens = Tokens {
     raised: Color32::from_rgb(0xFF, 0xFF, 0xFF),
     control: Color32::from_rgb(0xE3, 0xE7, 0xE4),
     control_hovered: Color32::from_rgb(0xD6, 0xDC, 0xD8),
+    control_line: Color32::from_rgb(0xB0, 0xBA, 0xB5),
+    field: Color32::from_rgb(0xFF, 0xFF, 0xFF),
     line: Color32::from_rgb(0xCB, 0xD2, 0xCD),
     text: Color32::from_rgb(0x1B, 0x21, 0x24),
     text_weak: Color32::from_rgb(0x54, 0x60, 0x66),
@@ -118,6 +126,8 @@ pub(crate) const TOOLTIP_DELAY_SECS: f32 = 0.6;
 pub const GAP: f32 = 6.0;
 /// Distance between groups, in points.
 pub const GROUP_GAP: f32 = 10.0;
+/// Width beside the content of a scroll area that its bar, which lies over the content, does not cover, in points.
+pub const SCROLL_BAR_ROOM: f32 = 8.0;
 /// Corner radius of cards and controls, in points.
 pub const RADIUS: u8 = 5;
 /// Width of the column with the texture list, in points.
@@ -185,6 +195,7 @@ fn style(t: &Tokens, mut visuals: Visuals) -> Style {
     visuals.window_corner_radius = radius;
     visuals.menu_corner_radius = radius;
     visuals.extreme_bg_color = t.background;
+    visuals.text_edit_bg_color = Some(t.field);
     visuals.faint_bg_color = t.raised;
     visuals.weak_text_color = Some(t.text_weak);
     visuals.hyperlink_color = t.accent;
@@ -209,6 +220,10 @@ fn style(t: &Tokens, mut visuals: Visuals) -> Style {
         widget.expansion = 0.0;
     }
     widgets.noninteractive.bg_stroke = Stroke::new(1.0, t.line);
+    if t.control_line != Color32::TRANSPARENT {
+        widgets.inactive.bg_stroke = Stroke::new(1.0, t.control_line);
+        widgets.open.bg_stroke = Stroke::new(1.0, t.control_line);
+    }
     widgets.hovered.bg_stroke = Stroke::new(1.0, t.text_weak);
     widgets.active.bg_stroke = Stroke::new(1.0, t.accent);
     let mut style = Style { visuals, ..Style::default() };
@@ -274,6 +289,7 @@ mod tests {
             pairs.push((widget.fg_stroke.color, widget.bg_fill, 4.5));
             pairs.push((widget.fg_stroke.color, widget.weak_bg_fill, 4.5));
         }
+        pairs.extend([t.text, t.text_weak].map(|color| (color, t.field, 4.5)));
         // Text of a selected tab or entry, and selected text.
         pairs.push((visuals.selection.stroke.color, visuals.selection.bg_fill, 4.5));
         // Outline of the field with the keyboard focus.
@@ -304,6 +320,16 @@ mod tests {
     fn a_map_gets_lighter_all_the_way() {
         let lights: Vec<f64> = (0..=20).map(|i| luminance(map_color(i as f32 / 20.0))).collect();
         assert!(lights.windows(2).all(|pair| pair[1] > pair[0]), "{lights:?}");
+    }
+
+    /// Without an outline, a button of the light theme could hardly be told from the canvas below it.
+    #[test]
+    fn controls_differ_from_the_canvas_and_from_text_fields() {
+        for t in [&DARK, &LIGHT] {
+            let is_outlined = contrast(t.control_line, t.background) > 1.5 && t.control_line.is_opaque();
+            assert!(is_outlined || contrast(t.control, t.background) > 1.4, "{t:?}");
+            assert!(contrast(t.control, t.field) > 1.2, "{t:?}");
+        }
     }
 
     /// Negative control: accent text on a lighter shade of the accent, a former style of tabs, is detected in both

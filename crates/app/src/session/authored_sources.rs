@@ -4,6 +4,7 @@ use std::sync::{Arc, OnceLock};
 
 use shagreen_core::space::LabelSource;
 use shagreen_core::space::authoring::{Authored, Authoring};
+use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::texture::plane::Plane;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_device::track::Track;
@@ -94,10 +95,21 @@ impl SpaceSource {
     }
 }
 
+/// Whether a texture has a path that can play.
+fn has_path(texture: &AuthoredTexture) -> bool {
+    texture.path.as_ref().and_then(UserPath::route).is_some()
+}
+
 impl AuthoredSources {
     /// Names of the textures.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.textures.iter().map(|(texture, _)| texture.name.as_str())
+    }
+
+    /// Names of the textures with a path.
+    pub(crate) fn names_with_paths(&self) -> impl Iterator<Item = &str> {
+        let with_paths = self.textures.iter().filter(|(texture, _)| has_path(texture));
+        with_paths.map(|(texture, _)| texture.name.as_str())
     }
 
     /// Signals of the textures, in the order of their names: the blend at each point.

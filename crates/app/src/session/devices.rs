@@ -110,7 +110,7 @@ impl Session {
             Err(error) => {
                 // The open output drives another actuator.
                 self.sound.player.silence();
-                self.say(error.to_string());
+                self.say_of_output(error.to_string());
             }
         }
     }
@@ -228,7 +228,7 @@ impl Session {
         self.sound.player.is_opening()
     }
 
-    /// Message in the status bar: an error of the output, or a notice.
+    /// Message about the output: an error, or a warning that another one plays.
     pub fn output_message(&self) -> Option<&str> {
         self.sound.player.message.as_deref()
     }

@@ -12,6 +12,7 @@ use shagreen_studio::report::Warnings;
 
 use super::audible::Audible;
 use super::loaded_textures::{rate_in, rate_of_space};
+use super::messages::Said;
 use super::places::{places, poles_of};
 use super::{Session, Spectra, drawn_frequencies};
 
@@ -47,7 +48,7 @@ impl Session {
             let models = match outcome {
                 Ok(models) => Some(models),
                 Err(reason) => {
-                    self.sound.player.message = Some(reason);
+                    self.say(reason);
                     None
                 }
             };
@@ -121,7 +122,7 @@ impl Session {
             } else {
                 let plane = plane_at(entry, rate, &Warnings::default()).unwrap_or_else(|error| {
                     // The texture cannot be interpolated, but it can still be soloed.
-                    self.sound.player.message = Some(format!("{error:#}"));
+                    self.said = Some(Said::new(format!("{error:#}")));
                     self.textures.places[i] = None;
                     if axes.is_none() {
                         entry.place = None;

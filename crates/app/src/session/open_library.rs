@@ -29,7 +29,7 @@ impl Session {
             Ok(library) => library,
             Err(error) => {
                 // The present textures stay open.
-                self.sound.player.message = Some(format!("{}: {error}", strings::DAMAGED_LIBRARY));
+                self.say(format!("{}: {error}", strings::DAMAGED_LIBRARY));
                 return vec![true; self.textures.library.textures.len()];
             }
         };

@@ -46,10 +46,7 @@ impl Session {
         self.set_hand(None);
         // Messages about the previous recording are obsolete.
         let full = strings::full(LONGEST_SECS);
-        self.sound
-            .player
-            .message
-            .take_if(|message| message.starts_with(&full) || *message == strings::REPLACED);
+        self.said.take_if(|said| said.text.starts_with(&full) || said.text == strings::REPLACED);
         self.hand.recorder = Some(Recorder::new());
     }
 

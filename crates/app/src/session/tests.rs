@@ -1,4 +1,5 @@
 mod exact_textures;
+mod messages;
 mod shaped_reliefs;
 mod unheard_spaces;
 
@@ -90,7 +91,7 @@ fn a_texture_too_fast_for_the_space_stays_out() {
     session.follow(&project, None, &ctx);
     assert_eq!(session.space().position(7), None);
     assert_eq!(session.space_rate_hz(), 1000.0);
-    assert!(session.output_message().is_some_and(|message| message.contains("cannot be mixed")));
+    assert!(session.message().is_some_and(|message| message.contains("cannot be mixed")));
     session.follow(&begun, None, &ctx);
     assert_eq!(session.textures().len(), 7);
 }
@@ -376,14 +377,14 @@ fn a_full_recording_is_said_to_be_kept_only_where_it_is() {
         (1.0, stroke::REPLACED, 2),
     ] {
         session.begin_recording();
-        assert_eq!(session.output_message(), None, "what was said of the one before is over");
+        assert_eq!(session.message(), None, "what was said of the one before is over");
         let recorder = session.hand.recorder.as_mut().unwrap();
         for _ in 0..2 {
             recorder.take_mouse(PenSample { force_n, touching: true, ..PenSample::default() });
         }
         recorder.age(2.0 * LONGEST_SECS);
         session.follow_strokes();
-        let message = session.output_message().unwrap();
+        let message = session.message().unwrap();
         assert!(message.starts_with(&stroke::full(LONGEST_SECS)) && message.ends_with(words), "{message}");
         assert_eq!((session.n_strokes(), session.recording()), (n_strokes, None));
     }

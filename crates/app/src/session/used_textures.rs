@@ -48,7 +48,7 @@ impl Session {
                     self.sound.player.wanted = None;
                 }
             }
-            Err(error) => self.sound.player.message = Some(error.to_string()),
+            Err(error) => self.say(error.to_string()),
         }
         self.authored.pins = Some(blend.locked.clone());
     }

@@ -18,7 +18,7 @@ use self::calibration_ui::Measurement;
 use crate::browse::Browse;
 use crate::command::Command;
 use crate::look::sheet_frame::sheet;
-use crate::look::theme::{GAP, GROUP_GAP, tokens};
+use crate::look::theme::{GAP, GROUP_GAP, SCROLL_BAR_ROOM, tokens};
 use crate::session::Session;
 use crate::state::rig::{Mounted, Rig};
 use crate::strings::devices as strings;
@@ -101,7 +101,7 @@ impl DevicesSheet {
         });
         ui.add_space(GAP);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            let width = 0.5 * (ui.available_width() - 2.0 * GROUP_GAP);
+            let width = 0.5 * (ui.available_width() - 2.0 * GROUP_GAP - SCROLL_BAR_ROOM);
             let column = Layout::top_down(Align::Min);
             ui.horizontal_top(|ui| {
                 ui.allocate_ui_with_layout(vec2(width, 0.0), column, |ui| {

@@ -9,9 +9,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, TryRecvError};
 
-use egui::{Button, Color32, Context, Key, Label, RichText, ScrollArea, TextStyle, Ui, vec2};
+use egui::{Button, Color32, Context, Id, Key, Label, RichText, ScrollArea, TextStyle, Ui, vec2};
 use shagreen_core::units::Contact;
 use shagreen_formats::library::Provenance;
+use shagreen_formats::wav_encoding::Level;
 use shagreen_studio::export::{self, FormatInfo, WAV};
 
 use crate::command::Command;
@@ -61,6 +62,8 @@ pub(crate) struct ExportSheet {
     authored: Option<Arc<AuthoredSources>>,
     format: FormatInfo,
     options: SignalOptions,
+    /// Whether the options of the last export have been taken over.
+    has_recalled: bool,
     /// Whether all authored textures are exported.
     is_all: bool,
     /// Name of the file of the audible texture, without its ending.
@@ -81,6 +84,8 @@ struct Choice {
     format: FormatInfo,
     is_all: bool,
     follows_stroke: bool,
+    level: Level,
+    shares_scale: bool,
 }
 
 #[derive(Default)]
@@ -106,6 +111,7 @@ impl ExportSheet {
             authored: None,
             format,
             options: SignalOptions::default(),
+            has_recalled: false,
             is_all: false,
             name: name.to_owned(),
             options_height: OPTIONS_HEIGHT,
@@ -135,6 +141,7 @@ impl ExportSheet {
 
     /// Draws the sheet; returns the requested commands.
     pub(crate) fn show(&mut self, ctx: &Context, panel: &Panel<'_>) -> Vec<Command> {
+        self.recall_options(ctx);
         let mut commands: Vec<Command> = self.collect().into_iter().collect();
         self.follow_summary(ctx, panel);
         let shown = sheet(ctx, "export sheet", |ui| {
@@ -149,13 +156,28 @@ impl ExportSheet {
         commands
     }
 
+    /// Takes over the options of the last export, as far as this signal has them.
+    fn recall_options(&mut self, ctx: &Context) {
+        if std::mem::replace(&mut self.has_recalled, true) {
+            return;
+        }
+        let Ok(signal) = &self.audible.signal else { return };
+        let last: Option<SignalOptions> = ctx.data(|data| data.get_temp(last_options()));
+        if let Some(last) = last.filter(|last| f64::from(last.rate_hz) >= signal.model_rate.0) {
+            self.options = SignalOptions { follows_stroke: false, ..last };
+        }
+    }
+
     /// Draws the content; returns whether the sheet was closed.
     fn content_ui(&mut self, ui: &mut Ui, panel: &Panel<'_>) -> bool {
         let t = tokens(ui.ctx());
         let is_enabled = !self.is_saving();
         ui.add(Label::new(RichText::new(strings::TITLE).heading().strong()).selectable(false));
-        let subject =
+        let mut subject =
             strings::subject(&self.audible.name, self.is_solo, self.is_all.then_some(self.n_authored));
+        if !self.is_all && self.format == WAV && self.audible.plays_path() {
+            subject = strings::along_path(&subject);
+        }
         ui.add(Label::new(RichText::new(subject).color(t.text_weak)).truncate().selectable(false));
         ui.add_space(GAP);
         let mut is_changed = false;
@@ -207,7 +229,8 @@ impl ExportSheet {
         let top = ui.cursor().top();
         match &self.audible.signal {
             Ok(signal) if self.format == WAV => {
-                let is_changed = options_ui(ui, signal, &mut self.options);
+                let is_all = (self.n_authored > 1).then_some(self.is_all);
+                let is_changed = options_ui(ui, signal, &mut self.options, is_all);
                 self.options_height = ui.min_rect().bottom() - top;
                 is_changed
             }
@@ -346,7 +369,10 @@ impl ExportSheet {
     fn to_save(&self, panel: &Panel<'_>) -> String {
         if self.is_all {
             let names = self.file_names(panel);
-            return strings::all_to_save(&listed(&names), names.len(), self.format.name);
+            let text = strings::all_to_save(&listed(&names), names.len(), self.format.name);
+            let folder = self.folder().unwrap_or_else(|| completed(self.path.text(), ""));
+            let is_new = !folder.exists();
+            return if is_new { text + strings::NEW_FOLDER } else { text };
         }
         match &self.audible.signal {
             Ok(file) if self.format == WAV => match &file.sounding {
@@ -391,6 +417,7 @@ impl ExportSheet {
         self.path.set(&path);
         self.state = match self.job(panel, path) {
             Ok(job) => {
+                ctx.data_mut(|data| data.insert_temp(last_options(), self.options.clone()));
                 let signal = job.bench_signal();
                 State::Saving(in_background(ctx.clone(), move || job.run(replaces)), signal)
             }
@@ -420,8 +447,14 @@ impl ExportSheet {
 
     /// Takes in a summary, and asks for another one when the choices have changed.
     fn follow_summary(&mut self, ctx: &Context, panel: &Panel<'_>) {
-        let choice =
-            Choice { format: self.format, is_all: self.is_all, follows_stroke: self.options.follows_stroke };
+        let SignalOptions { follows_stroke, shares_scale, encoding, .. } = &self.options;
+        let choice = Choice {
+            format: self.format,
+            is_all: self.is_all,
+            follows_stroke: *follows_stroke,
+            level: encoding.level,
+            shares_scale: *shares_scale,
+        };
         if self.summarized != Some(choice) {
             (self.summarized, self.summary) = (Some(choice), None);
             let job = self.job(panel, PathBuf::new());
@@ -431,6 +464,10 @@ impl ExportSheet {
             self.summary = Some(done.unwrap_or_else(|JobPanicked| Err(import::SAVE_BROKEN.to_owned())));
         }
     }
+}
+
+fn last_options() -> Id {
+    Id::unique("options of the last exported signal")
 }
 
 /// Height of this number of lines of text with the gaps between them, in points.

@@ -11,7 +11,7 @@ use shagreen_formats::project::Project;
 
 use crate::command::{Command, FileCommand};
 use crate::look::sheet_frame::sheet;
-use crate::look::theme::{GAP, RADIUS, Tokens, tokens};
+use crate::look::theme::{GAP, RADIUS, SCROLL_BAR_ROOM, Tokens, tokens};
 use crate::state::gallery_pictures::GalleryPictures;
 use crate::strings::gallery as strings;
 
@@ -60,12 +60,13 @@ impl GallerySheet {
         let t = tokens(ctx);
         let mut commands = Vec::new();
         sheet(ctx, "gallery", |ui| {
-            ui.set_width(COLUMNS as f32 * (WIDTH + GAP));
+            ui.set_width(COLUMNS as f32 * (WIDTH + GAP) - GAP + SCROLL_BAR_ROOM);
             ui.add(Label::new(RichText::new(strings::TITLE).heading().strong()).selectable(false));
             ui.add(Label::new(RichText::new(strings::HELP).color(t.text_weak)).selectable(false));
             ui.add_space(GAP);
             let height = ctx.content_rect().height() - AROUND;
-            ScrollArea::vertical().max_height(height).show(ui, |ui| commands.extend(self.cards_ui(ui, t)));
+            let area = ScrollArea::vertical().max_height(height).auto_shrink([false, true]);
+            area.show(ui, |ui| commands.extend(self.cards_ui(ui, t)));
             ui.add_space(GAP);
             ui.horizontal(|ui| {
                 if ui.button(strings::CLOSE).clicked() {

@@ -1,6 +1,6 @@
 //! User guide, as a sheet over the window.
 
-use egui::{Context, Frame, Label, Margin, RichText, ScrollArea, Ui};
+use egui::{Align, Context, Frame, Label, Margin, RichText, ScrollArea, Ui};
 use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use shagreen_studio::guide::{GuidePage, PAGES};
 
@@ -76,12 +76,14 @@ impl GuideSheet {
                 area = area.vertical_scroll_offset(0.0);
             }
             area.show(ui, |ui| {
+                // The Markdown library draws links at the top of their row; so the text beside them is there, too.
+                ui.style_mut().override_text_valign = Some(Align::TOP);
                 for (index, piece) in pieces(self.shown.text).into_iter().enumerate() {
                     match piece {
                         Piece::Prose(text) => {
                             ui.push_id(index, |ui| {
                                 let viewer = CommonMarkViewer::new().default_width(Some(PAGE_WIDTH as usize));
-                                viewer.show(ui, &mut self.cache, &with_captions(text));
+                                viewer.show(ui, &mut self.cache, &with_titles(&with_captions(text)));
                             });
                         }
                         Piece::Code(text) => code_ui(ui, text),
@@ -131,6 +133,14 @@ fn with_captions(text: &str) -> String {
     text.lines().map(line).collect::<Vec<_>>().join("\n")
 }
 
+/// The text with the titles of pages as texts of links to them, in place of their file names.
+fn with_titles(text: &str) -> String {
+    PAGES.iter().fold(text.to_owned(), |text, page| {
+        let link = link_to(page);
+        text.replace(&format!("[{link}]("), &format!("[{}](", page.title()))
+    })
+}
+
 fn code_ui(ui: &mut Ui, text: &str) {
     let t = tokens(ui.ctx());
     Frame::new().fill(t.control).corner_radius(RADIUS).inner_margin(Margin::same(8)).show(ui, |ui| {
@@ -149,8 +159,8 @@ fn link_to(page: &GuidePage) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Piece, pieces, with_captions};
-    use shagreen_studio::guide::PAGES;
+    use super::{Piece, link_to, pieces, with_captions, with_titles};
+    use shagreen_studio::guide::{GuidePage, PAGES};
 
     #[test]
     fn code_is_cut_out_of_pages() {
@@ -161,6 +171,19 @@ mod tests {
         assert_eq!(pieces("only prose"), [Piece::Prose("only prose")]);
         for page in &PAGES {
             assert_eq!(page.text.matches("\n```").count() % 2, 0, "{} has an open code block", page.id);
+        }
+    }
+
+    #[test]
+    fn links_to_pages_have_their_titles() {
+        let page = &PAGES[1];
+        let [link, title] = [link_to(page), page.title().to_owned()];
+        let text = format!("See [{link}]({link}) and [the start]({link}).");
+        assert_eq!(with_titles(&text), format!("See [{title}]({link}) and [the start]({link})."));
+        for page in &PAGES {
+            let shown = with_titles(page.text);
+            let is_file_name = |other: &GuidePage| shown.contains(&format!("[{}](", link_to(other)));
+            assert!(!PAGES.iter().any(is_file_name), "{} has a link named after a file", page.id);
         }
     }
 

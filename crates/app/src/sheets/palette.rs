@@ -1,11 +1,11 @@
 //! Command palette: a list of commands with search.
 
-use egui::{Button, Context, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+use egui::{Button, Context, Id, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 use shagreen_studio::export::{ExportFormat, FORMATS};
 
 use crate::command::{Command, FileCommand, listed};
 use crate::look::sheet_frame::sheet;
-use crate::look::theme::{GAP, tokens};
+use crate::look::theme::{GAP, SCROLL_BAR_ROOM, tokens};
 use crate::strings::help as strings;
 
 /// Width of the sheet, in points.
@@ -18,6 +18,9 @@ pub(crate) struct PaletteSheet {
     query: String,
     /// Index of the selected command among the matches.
     selected: usize,
+    /// Whether an arrow key has selected a command. *Enter* runs nothing before that or a query: letters typed while the
+    /// palette opened can be lost.
+    is_selected_by_key: bool,
     is_focused: bool,
 }
 
@@ -31,30 +34,30 @@ struct Row {
 impl PaletteSheet {
     /// Draws the sheet; returns the requested commands.
     pub(crate) fn show(&mut self, ctx: &Context) -> Vec<Command> {
-        let rows = matching(all(ctx), &self.query);
-        self.selected = self.selected.min(rows.len().saturating_sub(1));
-        let (mut chosen, n) = (None, rows.len());
+        // Before the field, which would lose its focus by *Enter*.
         let pressed = |key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
-        if pressed(Key::ArrowDown) && n > 0 {
-            self.selected = (self.selected + 1) % n;
-        }
-        if pressed(Key::ArrowUp) && n > 0 {
-            self.selected = (self.selected + n - 1) % n;
-        }
-        if pressed(Key::Enter) {
-            chosen = Some(self.selected);
-        }
+        let [is_down, is_up, is_enter] = [Key::ArrowDown, Key::ArrowUp, Key::Enter].map(pressed);
+        let (mut chosen, mut rows) = (None, Vec::new());
         sheet(ctx, "palette", |ui| {
             ui.set_width(WIDTH);
+            let id = Id::unique("palette query");
             let field = TextEdit::singleline(&mut self.query)
                 .hint_text(strings::FIND_COMMAND)
-                .desired_width(f32::INFINITY);
-            let field = ui.add(field).accessible_name(strings::FIND_COMMAND);
+                .desired_width(f32::INFINITY)
+                .id(id);
+            // Before the field is drawn, so that it takes the letters of its first frame.
             if !std::mem::replace(&mut self.is_focused, true) {
-                field.request_focus();
+                ui.memory_mut(|memory| memory.request_focus(id));
             }
+            let field = ui.add(field).accessible_name(strings::FIND_COMMAND);
             if field.changed() {
                 self.selected = 0;
+            }
+            // After the field: fast typing brings the last letters and *Enter* in one frame.
+            rows = matching(all(ui.ctx()), &self.query);
+            self.step(rows.len(), is_down, is_up);
+            if is_enter && (self.is_selected_by_key || !self.query.trim().is_empty()) {
+                chosen = Some(self.selected);
             }
             ui.add_space(GAP);
             chosen = chosen.or(list_ui(ui, &rows, self.selected));
@@ -66,6 +69,15 @@ impl PaletteSheet {
         }
         commands
     }
+
+    /// Moves the selection among `n` matches.
+    fn step(&mut self, n: usize, is_down: bool, is_up: bool) {
+        self.selected = self.selected.min(n.saturating_sub(1));
+        if n > 0 && (is_down || is_up) {
+            self.selected = (self.selected + if is_down { 1 } else { n - 1 }) % n;
+            self.is_selected_by_key = true;
+        }
+    }
 }
 
 /// Draws the list and returns the index of the row that was clicked.
@@ -75,7 +87,8 @@ fn list_ui(ui: &mut Ui, rows: &[Row], selected: usize) -> Option<usize> {
     ScrollArea::vertical()
         .min_scrolled_height(LIST_HEIGHT)
         .max_height(LIST_HEIGHT)
-        .auto_shrink([false, true])
+        // A height that followed the matches would move the field while one types.
+        .auto_shrink(false)
         .show(ui, |ui| {
             if rows.is_empty() {
                 ui.label(RichText::new(strings::NO_COMMAND).color(t.text_weak));
@@ -84,7 +97,7 @@ fn list_ui(ui: &mut Ui, rows: &[Row], selected: usize) -> Option<usize> {
                 let keys_color = if index == selected { t.on_chosen } else { t.text_weak };
                 let keys = RichText::new(&row.keys).color(keys_color);
                 let button = Button::selectable(index == selected, &row.label).shortcut_text(keys);
-                let button = button.min_size(egui::vec2(ui.available_width(), 0.0));
+                let button = button.min_size(egui::vec2(ui.available_width() - SCROLL_BAR_ROOM, 0.0));
                 let response = ui.add(button).accessible_name(&row.label);
                 if index == selected {
                     response.scroll_to_me(None);

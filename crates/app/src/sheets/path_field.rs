@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use egui::text::{CCursor, CCursorRange};
 use egui::{Context, Id, Key, TextEdit, Ui};
 
 use crate::browse::{Asked, BROWSE_WIDTH, Browse};
+use crate::look::text_selection::select_chars;
 use crate::sheets::folders_ui::{FOLDERS_WIDTH, folders_ui};
 
 /// Texts of the field, and the usual ending of the file's name.
@@ -121,10 +121,7 @@ fn select_name(ctx: &Context, field: Id, path: &str) {
     let is_parting = |c: char| c == '/' || c == std::path::MAIN_SEPARATOR;
     let begin = path.rfind(is_parting).map_or(0, |at| path[..=at].chars().count());
     let length = Path::new(path).file_stem().map_or(0, |stem| stem.to_string_lossy().chars().count());
-    let mut state = TextEdit::load_state(ctx, field).unwrap_or_default();
-    let ends = CCursorRange::two(CCursor::new(begin), CCursor::new(begin + length));
-    state.cursor.set_char_range(Some(ends));
-    state.store(ctx, field);
+    select_chars(ctx, field, begin..begin + length);
 }
 
 #[cfg(test)]

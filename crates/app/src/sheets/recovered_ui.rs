@@ -18,7 +18,9 @@ pub(crate) fn recovered_ui(ctx: &Context, leftovers: &[Leftover]) -> Vec<Command
         ui.set_width(520.0);
         ui.add(Label::new(RichText::new(strings::RECOVERED_TITLE).heading().strong()).selectable(false));
         ui.add_space(GAP);
-        ui.add(Label::new(strings::RECOVERED_HELP).wrap());
+        let help =
+            if leftovers.len() > 1 { strings::RECOVERED_SEVERAL_HELP } else { strings::RECOVERED_HELP };
+        ui.add(Label::new(help).wrap());
         ui.add_space(GAP);
         for (index, leftover) in leftovers.iter().enumerate() {
             let stem = leftover.origin.as_ref().and_then(|file| file.path.file_stem());

@@ -37,6 +37,8 @@ pub(crate) struct ReliefTarget {
     pub(crate) of: ReliefOf,
     /// What happens to the texture.
     pub(crate) note: String,
+    /// Its own picture, which is read first.
+    pub(crate) picture: Option<Arc<Picture>>,
     /// Why the texture cannot have a relief.
     pub(crate) refusal: Option<&'static str>,
 }
@@ -67,8 +69,9 @@ struct ReadPicture {
 }
 
 impl ReliefSheet {
-    /// Sheet for a texture, with a picture if there is one.
+    /// Sheet for a texture, with a picture if there is one, or else with that of the texture.
     pub(crate) fn new(target: ReliefTarget, picture: Option<Source>, ctx: &Context) -> Self {
+        let own = target.picture.clone();
         let mut sheet = Self {
             target,
             path: String::new(),
@@ -83,9 +86,12 @@ impl ReliefSheet {
             made: None,
             failure: None,
         };
-        match picture {
-            Some(picture) => sheet.read(picture, ctx),
-            None => sheet.browse.begin(ctx, &asked()),
+        match (picture, own) {
+            (Some(picture), _) => sheet.read(picture, ctx),
+            (None, Some(own)) => {
+                sheet.reading.ask(ctx, move || tile_of(strings::OWN_PICTURE.to_owned(), &own.bytes));
+            }
+            (None, None) => sheet.browse.begin(ctx, &asked()),
         }
         sheet
     }
@@ -297,10 +303,14 @@ fn number_ui(ui: &mut Ui, word: &str, help: &str, value: DragValue<'_>, is_state
 
 /// Reads a picture and prepares its tile.
 fn read_picture(source: &Source) -> Result<ReadPicture, String> {
-    let name = source.name();
+    let bytes = source.bytes().map_err(|reason| format!("{reason}: {}", source.name()))?;
+    tile_of(source.name(), &bytes)
+}
+
+/// Prepares the tile of a picture with this name.
+fn tile_of(name: String, bytes: &[u8]) -> Result<ReadPicture, String> {
     let of_file = |reason: String| format!("{reason}: {name}");
-    let bytes = source.bytes().map_err(of_file)?;
-    let tile = PictureTile::read(&bytes).map_err(|error| of_file(error.to_string()))?;
+    let tile = PictureTile::read(bytes).map_err(|error| of_file(error.to_string()))?;
     // The size of the preview on the screen does not depend on that of the surface.
     let shown = tile.picture(1.0).map_err(|error| of_file(error.to_string()))?;
     Ok(ReadPicture { tile: Arc::new(tile), shown: Arc::new(shown), name })

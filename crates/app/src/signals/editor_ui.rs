@@ -7,6 +7,7 @@ use super::editor::{Editor, GAINS_DB, RADII_MM, RADII_OCTAVES};
 use super::number_ui::number_ui;
 use crate::choices::signals::Tool;
 use crate::look::theme::{GROUP_GAP, tokens};
+use crate::look::together::together_ui;
 use crate::strings::signals as strings;
 
 /// Draws the tools; returns whether B is to be stretched.
@@ -27,20 +28,28 @@ pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> bool {
         }
         ui.add_space(GROUP_GAP);
         // Shown with every tool, so that the controls beside them do not move.
-        ui.add_enabled_ui(editor.tool.is_brush(), |ui| {
-            let width = DragValue::new(&mut editor.radius_mm).range(RADII_MM).speed(0.05);
-            let width = width.prefix("± ").suffix(" mm");
-            number_ui(ui, strings::BRUSH_WIDTH, strings::BRUSH_WIDTH, strings::BRUSH_WIDTH_HELP, width);
-            let height = DragValue::new(&mut editor.radius_octaves).range(RADII_OCTAVES).speed(0.01);
-            let height = height.prefix("± ").suffix(" oct");
-            number_ui(ui, strings::BRUSH_HEIGHT, strings::BRUSH_HEIGHT, strings::BRUSH_HEIGHT_HELP, height);
-            let gain = DragValue::new(&mut editor.gain_db).range(GAINS_DB).speed(0.1).suffix(" dB");
-            number_ui(ui, strings::BRUSH_GAIN, strings::BRUSH_GAIN, strings::BRUSH_GAIN_HELP, gain);
-        });
+        let is_brush = editor.tool.is_brush();
+        let width = DragValue::new(&mut editor.radius_mm).range(RADII_MM).speed(0.05);
+        let width = width.prefix("± ").suffix(" mm");
+        brush_ui(ui, is_brush, strings::BRUSH_WIDTH, strings::BRUSH_WIDTH_HELP, width);
+        let height = DragValue::new(&mut editor.radius_octaves).range(RADII_OCTAVES).speed(0.01);
+        let height = height.prefix("± ").suffix(" oct");
+        brush_ui(ui, is_brush, strings::BRUSH_HEIGHT, strings::BRUSH_HEIGHT_HELP, height);
+        let gain = DragValue::new(&mut editor.gain_db).range(GAINS_DB).speed(0.1).suffix(" dB");
+        brush_ui(ui, is_brush, strings::BRUSH_GAIN, strings::BRUSH_GAIN_HELP, gain);
         ui.add_space(GROUP_GAP);
-        is_stretched = ui.button(strings::STRETCH).on_hover_text(strings::STRETCH_HELP).clicked();
-        let stretch = DragValue::new(&mut editor.stretch).range(STRETCHES).speed(0.02).prefix("× ");
-        ui.add(stretch).accessible_name(strings::STRETCH_FACTOR).on_hover_text(strings::STRETCH_HELP);
+        together_ui(ui, "stretch", |ui| {
+            is_stretched = ui.button(strings::STRETCH).on_hover_text(strings::STRETCH_HELP).clicked();
+            let stretch = DragValue::new(&mut editor.stretch).range(STRETCHES).speed(0.02).prefix("× ");
+            ui.add(stretch).accessible_name(strings::STRETCH_FACTOR).on_hover_text(strings::STRETCH_HELP);
+        });
     });
     is_stretched
+}
+
+/// Draws a setting of the brush, which is enabled only while the tool is a brush. Its name and its number stay together.
+fn brush_ui(ui: &mut Ui, is_brush: bool, name: &str, help: &str, value: DragValue<'_>) {
+    together_ui(ui, name, |ui| {
+        ui.add_enabled_ui(is_brush, |ui| number_ui(ui, name, name, help, value));
+    });
 }

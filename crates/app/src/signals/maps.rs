@@ -14,6 +14,7 @@ use crate::command::Command;
 use crate::figure_ui::framed_figure_ui;
 use crate::look::theme::tokens;
 use crate::state::bench_signal::BenchSignal;
+use crate::strings::differences::named;
 use crate::strings::signals as strings;
 
 /// View settings of the maps.
@@ -74,7 +75,8 @@ impl Maps {
         if is_new {
             let levels = self.drawn.iter().flatten().filter_map(|drawn| drawn.levels.as_ref().ok());
             let highest_db = levels.map(Levels::highest_db).fold(f64::NEG_INFINITY, f64::max);
-            self.figures = self.drawn.each_ref().map(|drawn| Some(drawn.as_ref()?.figure(highest_db)));
+            let figure = |slot: Slot| Some(self.drawn[slot.index()].as_ref()?.figure(slot, highest_db));
+            self.figures = Slot::ALL.map(figure);
         }
     }
 
@@ -85,11 +87,11 @@ impl Maps {
 }
 
 impl Drawn {
-    fn figure(&self, highest_db: f64) -> MapFigure {
+    fn figure(&self, slot: Slot, highest_db: f64) -> MapFigure {
         let Seen { view, window_mm, .. } = self.seen;
         let levels = self.levels.clone()?;
         let window_mm = 1e3 * self.of.window_m(self.of.framing(1e-3 * window_mm));
-        let title = strings::map_title(view, &self.of.name, window_mm);
+        let title = strings::map_title(view, &named(slot, &self.of.name), window_mm);
         Ok(Arc::new(levels.figure(title, strings::map_axes(view), highest_db)))
     }
 }

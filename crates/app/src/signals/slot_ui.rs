@@ -14,7 +14,7 @@ use crate::command::Command;
 use crate::command::signals::SignalsCommand;
 use crate::look::icons::{ICON_PLAY_ARROW, ICON_STOP, close_button, icon_button};
 use crate::look::list::ShowList as _;
-use crate::look::theme::{RADIUS, tokens};
+use crate::look::theme::{RADIUS, SCROLL_BAR_ROOM, tokens};
 use crate::state::source::paths_in;
 use crate::strings::signals as strings;
 
@@ -59,7 +59,7 @@ pub(super) fn place_ui(ui: &mut Ui, slot: Slot, place: &mut Place, state: State)
     let t = tokens(ui.ctx());
     let mut asked = Asked::default();
     Frame::new().fill(t.raised).corner_radius(RADIUS).inner_margin(8.0).show(ui, |ui| {
-        ui.set_width(ui.available_width());
+        ui.set_width(ui.available_width() - SCROLL_BAR_ROOM);
         head_ui(ui, slot, place, state, &mut asked);
         facts_ui(ui, place);
         ui.add_space(2.0);

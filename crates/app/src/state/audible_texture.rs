@@ -2,7 +2,7 @@
 
 use shagreen_formats::library::TextureEntry;
 
-use crate::state::signal_file::SignalFile;
+use crate::state::signal_file::{SignalFile, Sounding};
 
 /// Audible texture, or a signal of the Signals workspace.
 #[derive(Debug)]
@@ -13,4 +13,13 @@ pub(crate) struct AudibleTexture {
     pub(crate) signal: Result<SignalFile, String>,
     /// Its texture model as a library entry, or the reason why there is none.
     pub(crate) entry: Result<TextureEntry, String>,
+    /// Whether it is an authored texture with a path.
+    pub(crate) has_path: bool,
+}
+
+impl AudibleTexture {
+    /// Whether the signal follows the path.
+    pub(crate) fn plays_path(&self) -> bool {
+        self.has_path && self.signal.as_ref().is_ok_and(|signal| matches!(signal.sounding, Sounding::Path(_)))
+    }
 }

@@ -1,9 +1,10 @@
 //! Authored textures that are copied from one project and pasted into another.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use shagreen_core::space::SpacePoint;
-use shagreen_formats::library::{Library, free_name};
+use shagreen_formats::library::{Library, Place, TextureEntry, free_name};
 use shagreen_formats::project::clipboard::CopiedTexture;
 use shagreen_formats::project::{AuthoredTexture, BlendChoice, Project};
 
@@ -21,17 +22,30 @@ pub fn beside(at: SpacePoint) -> SpacePoint {
     SpacePoint { rough_smooth: step(at.rough_smooth), hard_soft: step(at.hard_soft) }
 }
 
-/// An authored texture with the names of what it refers to. `axes` are the words at the ends of both axes.
-pub fn copied(texture: &AuthoredTexture, library: &Library, axes: &[[String; 2]; 2]) -> CopiedTexture {
+/// An authored texture of a project with the names of what it refers to, and the pinned textures that were added to the
+/// project. `library` is the list of the project, and `axes` are the words at the ends of both axes.
+pub fn copied(
+    texture: &AuthoredTexture,
+    project: &Project,
+    library: &Library,
+    axes: &[[String; 2]; 2],
+) -> CopiedTexture {
     let named = |id: &String| {
         let index = library.index_of(id)?;
         Some((id.clone(), library.textures[index].name.clone()))
+    };
+    let pinned: BTreeMap<String, String> = texture.blend.locked.iter().filter_map(named).collect();
+    // An added texture has the name that the list shows.
+    let travels = |entry: &Arc<TextureEntry>| {
+        let name = pinned.get(&entry.id)?.clone();
+        Some(TextureEntry { name, ..TextureEntry::clone(entry) })
     };
     CopiedTexture {
         texture: texture.clone(),
         library: library.name.clone(),
         axes: axes.clone(),
-        pinned: texture.blend.locked.iter().filter_map(named).collect(),
+        textures: project.joined.iter().filter_map(travels).collect(),
+        pinned,
     }
 }
 
@@ -40,12 +54,14 @@ pub fn copied(texture: &AuthoredTexture, library: &Library, axes: &[[String; 2];
 pub struct Pasted {
     /// The texture.
     pub texture: AuthoredTexture,
+    /// Textures that it pins and that the project lacks, to be added with it.
+    pub own: Vec<Arc<TextureEntry>>,
     /// Warnings of the user.
     pub warnings: Vec<String>,
 }
 
 /// Fits a copied texture into a project with this library and these axes: its name becomes unique, it does not cover
-/// another authored texture, and pins of textures that the library lacks are removed.
+/// another authored texture, and pins of textures that neither the library nor the copy has are removed.
 pub fn pasted(
     copied: CopiedTexture,
     project: &Project,
@@ -56,9 +72,12 @@ pub fn pasted(
     if copied.library != library.name || copied.axes != *axes {
         warnings.push(strings::from_another_space(&copied.library, &copied.axes));
     }
-    let CopiedTexture { texture, pinned, .. } = copied;
+    let CopiedTexture { texture, pinned, textures, .. } = copied;
+    let is_lacking = |entry: &TextureEntry| !is_listed(entry, library);
+    let own: Vec<TextureEntry> = textures.into_iter().filter(is_lacking).collect();
+    let is_known = |id: &String| own.iter().any(|entry| entry.id == *id) || library.index_of(id).is_some();
     let (locked, missing): (BTreeSet<String>, BTreeSet<String>) =
-        texture.blend.locked.iter().cloned().partition(|id| library.index_of(id).is_some());
+        texture.blend.locked.iter().cloned().partition(is_known);
     if !missing.is_empty() {
         warnings.push(strings::not_pinned(&names_of(missing, &pinned)));
     }
@@ -73,7 +92,22 @@ pub fn pasted(
         }
     }
     let blend = BlendChoice { locked, ..texture.blend };
-    Pasted { texture: AuthoredTexture { name, at, blend, ..texture }, warnings }
+    let own = own.into_iter().map(|entry| Arc::new(with_own_place(entry, library))).collect();
+    Pasted { texture: AuthoredTexture { name, at, blend, ..texture }, own, warnings }
+}
+
+/// Whether the library has this very texture: an identifier alone may be that of another one.
+fn is_listed(entry: &TextureEntry, library: &Library) -> bool {
+    let listed = library.index_of(&entry.id).and_then(|index| library.textures.get(index));
+    listed.is_some_and(|listed| listed.model == entry.model && listed.picture == entry.picture)
+}
+
+/// A texture without its position if another one of the library lies there: two at one position form no space.
+fn with_own_place(entry: TextureEntry, library: &Library) -> TextureEntry {
+    let mut places = library.textures.iter().filter_map(TextureEntry::at);
+    let is_taken = |place: &Place| places.any(|other| other.distance(place.at) < SAME_PLACE);
+    let is_taken = entry.place.as_ref().is_some_and(is_taken);
+    if is_taken { TextureEntry { place: None, ..entry } } else { entry }
 }
 
 /// Names of textures; an identifier where the name is unknown.
@@ -83,6 +117,8 @@ fn names_of(ids: BTreeSet<String>, names: &BTreeMap<String, String>) -> Vec<Stri
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::{beside, copied, pasted};
     use crate::state::edit::{Edit, edited};
     use shagreen_core::space::SpacePoint;
@@ -109,8 +145,9 @@ mod tests {
     fn a_texture_of_the_same_project_is_pasted_beside_under_a_name_of_its_own() {
         let (mut project, library) = starter();
         for (n, name) in [(1.0, "Felt 2"), (2.0, "Felt 3")] {
-            let outcome = pasted(copied(&pinned("cork"), &library, &axes()), &project, &library, &axes());
-            assert_eq!(outcome.warnings, Vec::<String>::new());
+            let copy = copied(&pinned("cork"), &project, &library, &axes());
+            let outcome = pasted(copy, &project, &library, &axes());
+            assert_eq!((outcome.warnings, outcome.own), (Vec::new(), Vec::new()));
             let at = 50.0 + 4.0 * n;
             assert_eq!(outcome.texture.at, SpacePoint { rough_smooth: at, hard_soft: at });
             assert_eq!(outcome.texture.name, name);
@@ -131,10 +168,37 @@ mod tests {
         "Elm".clone_into(&mut source.textures[cork].name);
         let mut texture = pinned("elm");
         texture.blend.locked.insert("glass".to_owned());
-        let outcome = pasted(copied(&texture, &source, &axes()), &project, &library, &axes());
+        let outcome = pasted(copied(&texture, &project, &source, &axes()), &project, &library, &axes());
         assert_eq!(outcome.texture.blend.locked.iter().collect::<Vec<_>>(), ["glass"]);
         let [space, pins] = &outcome.warnings[..] else { panic!("{:?}", outcome.warnings) };
         assert!(space.contains("library Woods, axes rough to smooth and hard to soft"), "{space}");
         assert!(pins.ends_with("lacks them: Elm"), "{pins}");
+    }
+
+    /// A texture of one project, such as a generated one, goes with the authored texture that pins it, unless it is there.
+    #[test]
+    fn a_pinned_texture_that_was_added_travels_with_the_copy() {
+        let (project, library) = starter();
+        let mut own = library.textures[0].clone();
+        "ribs".clone_into(&mut own.id);
+        (own.place, own.picture) = (None, None);
+        let join = Edit::JoinSimulated { key: 1, entry: Arc::new(own.clone()), earlier: None };
+        let source = edited(&project, join);
+        let list = source.textures_on(library.clone());
+        let copy = copied(source.texture(), &source, &list, &axes());
+        assert_eq!(copy.textures, [own.clone()]);
+        // A texture of the same identifier is another one.
+        let mut other = own.clone();
+        other.picture = library.textures[1].picture.clone();
+        let target = edited(&project, Edit::AddTextures(vec![Arc::new(other)]));
+        let outcome = pasted(copy.clone(), &target, &target.textures_on(library.clone()), &axes());
+        assert_eq!(outcome.warnings, Vec::<String>::new());
+        let after =
+            edited(&target, Edit::AuthorWith { texture: Box::new(outcome.texture), own: outcome.own });
+        assert_eq!(after.joined[1].id, "ribs-2");
+        assert!(after.own.contains("ribs-2") && !after.own.contains("ribs"));
+        assert_eq!(after.texture().blend.locked.iter().collect::<Vec<_>>(), ["ribs-2"]);
+        // In its own project there is nothing to add.
+        assert_eq!(pasted(copy, &source, &list, &axes()).own, Vec::new());
     }
 }

@@ -89,13 +89,22 @@ pub enum Edit {
     },
     /// Adds an authored texture and selects it.
     Author(AuthoredTexture),
+    /// Adds an authored texture with the textures that only it uses, and selects it. Its pins of these follow if the list gives
+    /// them other identifiers.
+    AuthorWith {
+        /// The texture.
+        texture: Box<AuthoredTexture>,
+        /// Textures to add.
+        own: Vec<Arc<TextureEntry>>,
+    },
     /// Deletes the authored texture with this key, unless it is the last one.
     Remove(u32),
     /// Selects the authored texture with this key.
     Select(u32),
     /// Keeps a snapshot of the texture.
     KeepSnapshot,
-    /// Restores the snapshot with this index, except name, color, notes and tags.
+    /// Selects the texture of the snapshot with this index and restores its state, except name, color, notes and tags. A
+    /// texture that was deleted comes back with all of these. Ends solo.
     RestoreSnapshot(usize),
     /// Deletes the snapshot with this index.
     RemoveSnapshot(usize),
@@ -123,6 +132,15 @@ pub enum Edit {
         entry: Arc<TextureEntry>,
         /// Where it belongs.
         place: ReliefPlace,
+    },
+    /// Replaces an added texture by the same one with a position.
+    PlaceTexture {
+        /// Index among the added textures.
+        joined: usize,
+        /// Name of the texture.
+        name: String,
+        /// The texture with its position.
+        entry: Arc<TextureEntry>,
     },
     /// Deletes an added texture, by its index among them.
     RemoveTexture(usize),
@@ -219,10 +237,13 @@ impl Edit {
             }
             Self::ChangePath(change, _) => change.label().into(),
             Self::Author(texture) => strings::authored(&texture.name).into(),
+            Self::AuthorWith { texture, .. } => strings::authored(&texture.name).into(),
             Self::Remove(key) => strings::removed(name_of(project, *key)).into(),
             Self::Select(key) => strings::selected(name_of(project, *key)).into(),
             Self::KeepSnapshot => strings::kept_snapshot(name).into(),
-            Self::RestoreSnapshot(_) => strings::restored_snapshot(name).into(),
+            Self::RestoreSnapshot(index) => {
+                strings::restored_snapshot(name_of_snapshot(project, *index)).into()
+            }
             Self::RemoveSnapshot(_) => strings::REMOVE_SNAPSHOT.into(),
             Self::SetProjectNotes(_) => strings::CHANGE_NOTES.into(),
             Self::OpenLibrary(library) => {
@@ -235,6 +256,7 @@ impl Edit {
                 strings::relief_of(project.renamed.get(&entry.id).unwrap_or(&entry.name)).into()
             }
             Self::AddRelief { entry, .. } => strings::authored(&entry.name).into(),
+            Self::PlaceTexture { name, .. } => strings::placed(name).into(),
             Self::RemoveTexture(joined) => {
                 let name = |entry: &Arc<TextureEntry>| {
                     strings::removed_texture(project.renamed.get(&entry.id).unwrap_or(&entry.name))
@@ -275,6 +297,14 @@ impl PathChange {
 
 fn name_of(project: &Project, key: u32) -> &str {
     project.authored.iter().find(|texture| texture.key == key).map_or("", |texture| &texture.name)
+}
+
+/// Present name of the texture of a snapshot, or its name in the snapshot if it was deleted. Empty if there is no such
+/// snapshot.
+pub(crate) fn name_of_snapshot(project: &Project, index: usize) -> &str {
+    let Some(snapshot) = project.snapshots.get(index) else { return "" };
+    let own = project.authored.iter().find(|texture| texture.key == snapshot.key);
+    &own.unwrap_or(snapshot).name
 }
 
 /// Returns the project after an edit. An edit of a texture that does not exist has no effect.
@@ -326,11 +356,8 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
             });
         }
         Edit::ChangePath(_, path) => change(&mut project, |texture| texture.path = path),
-        Edit::Author(texture) => {
-            let texture = AuthoredTexture { key: project.free_key(), ..texture };
-            project.authored.insert(project.selected + 1, Arc::new(texture));
-            (project.selected, project.solo) = (project.selected + 1, None);
-        }
+        Edit::Author(texture) => author(&mut project, texture),
+        Edit::AuthorWith { texture, own } => author_with(&mut project, *texture, own),
         Edit::Remove(key) => remove(&mut project, key),
         Edit::Select(key) => {
             if let Some(index) = project.authored.iter().position(|texture| texture.key == key) {
@@ -350,6 +377,11 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         Edit::AddTextures(entries) => project.add_textures(entries),
         Edit::JoinSimulated { key, entry, earlier } => join_felt(&mut project, key, entry, earlier.as_ref()),
         Edit::AddRelief { entry, place } => join_relief(&mut project, entry, place),
+        Edit::PlaceTexture { joined, entry, .. } => {
+            if let Some(before) = project.joined.get_mut(joined) {
+                *before = entry;
+            }
+        }
         Edit::RemoveTexture(index) => {
             if index < project.joined.len() {
                 let removed = project.joined.remove(index);
@@ -357,15 +389,7 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
                 project.solo = None;
             }
         }
-        Edit::SetOwn { joined, is_own, .. } => {
-            if let Some(entry) = project.joined.get(joined) {
-                if is_own {
-                    project.own.insert(entry.id.clone());
-                } else {
-                    project.own.remove(&entry.id);
-                }
-            }
-        }
+        Edit::SetOwn { joined, is_own, .. } => set_own(&mut project, joined, is_own),
         Edit::RenameTexture { id, name } => drop(project.renamed.insert(id, begin_of(name, MAX_NAME))),
         Edit::Star { id, is_starred, .. } => {
             if is_starred {
@@ -382,9 +406,37 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
     project
 }
 
+/// Says whether a texture that was added belongs to the project.
+fn set_own(project: &mut Project, joined: usize, is_own: bool) {
+    let Some(entry) = project.joined.get(joined) else { return };
+    if is_own {
+        project.own.insert(entry.id.clone());
+    } else {
+        project.own.remove(&entry.id);
+    }
+}
+
 /// Changes the selected authored texture.
 fn change(project: &mut Project, change: impl FnOnce(&mut AuthoredTexture)) {
     change(Arc::make_mut(&mut project.authored[project.selected]));
+}
+
+fn author(project: &mut Project, texture: AuthoredTexture) {
+    let texture = AuthoredTexture { key: project.free_key(), ..texture };
+    project.authored.insert(project.selected + 1, Arc::new(texture));
+    (project.selected, project.solo) = (project.selected + 1, None);
+}
+
+fn author_with(project: &mut Project, mut texture: AuthoredTexture, own: Vec<Arc<TextureEntry>>) {
+    for entry in &own {
+        texture.blend.locked.remove(&entry.id);
+    }
+    let n_before = project.joined.len();
+    project.add_textures(own);
+    let added: Vec<String> = project.joined.iter().skip(n_before).map(|entry| entry.id.clone()).collect();
+    texture.blend.locked.extend(added.iter().cloned());
+    project.own.extend(added);
+    author(project, texture);
 }
 
 fn remove(project: &mut Project, key: u32) {
@@ -401,6 +453,13 @@ fn remove(project: &mut Project, key: u32) {
 fn restore(project: &mut Project, index: usize) {
     let Some(snapshot) = project.snapshots.get(index).cloned() else { return };
     project.solo = None;
+    let Some(own) = project.authored.iter().position(|texture| texture.key == snapshot.key) else {
+        // No other texture has its key: a new one never gets that of a snapshot.
+        project.selected += 1;
+        project.authored.insert(project.selected, snapshot);
+        return;
+    };
+    project.selected = own;
     change(project, |texture| {
         texture.at = snapshot.at;
         texture.blend.clone_from(&snapshot.blend);

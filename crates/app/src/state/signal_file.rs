@@ -12,7 +12,7 @@ use shagreen_core::texture::tap::Tap;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_device::track::Track;
 use shagreen_formats::bounded_file::{self, FileKind};
-use shagreen_formats::wav::{SidecarV1, TraceV1, is_sidecar, sidecar_path, write_wav_as};
+use shagreen_formats::wav::{SidecarV1, TraceV1, is_sidecar, sidecar_path, write_wav_scaled};
 use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
 use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
 use shagreen_studio::replace::is_own_signal;
@@ -42,6 +42,8 @@ pub(crate) struct SignalOptions {
     pub loops: bool,
     /// Whether the tip follows the recorded stroke.
     pub follows_stroke: bool,
+    /// Whether several signals at their peak are divided by one acceleration, so that differences in level stay.
+    pub shares_scale: bool,
 }
 
 impl Default for SignalOptions {
@@ -53,6 +55,7 @@ impl Default for SignalOptions {
             encoding: WavEncoding { samples: SampleType::Float32, level: Level::Peak },
             loops: false,
             follows_stroke: false,
+            shares_scale: true,
         }
     }
 }
@@ -88,12 +91,17 @@ pub struct SignalFile {
 }
 
 impl SignalFile {
-    /// Renders the signal and writes it with its sidecar.
+    /// Renders the signal and writes it with its sidecar. `scale_mps2` becomes a sample of 1; `None` takes that of the encoding.
     ///
     /// # Errors
     /// States that the signal cannot be rendered or written, or that the path of the sidecar is taken by another kind
     /// of file.
-    pub(crate) fn write(&self, path: &Path, options: &SignalOptions) -> Result<(), String> {
+    pub(crate) fn write(
+        &self,
+        path: &Path,
+        options: &SignalOptions,
+        scale_mps2: Option<f64>,
+    ) -> Result<(), String> {
         if !Self::may_lie_beside(path) {
             return Err(strings::not_replaced(&sidecar_path(path).display().to_string()));
         }
@@ -101,7 +109,9 @@ impl SignalFile {
         let samples = self.samples(options)?;
         let trace = self.trace(options);
         let sidecar = SidecarV1 { rate_hz, seconds, trace, ..self.sidecar.clone() };
-        write_wav_as(path, &samples, &sidecar, options.encoding).map_err(|error| error.to_string())
+        let scale_mps2 = scale_mps2.unwrap_or_else(|| options.encoding.full_scale(&samples));
+        let written = write_wav_scaled(path, &samples, &sidecar, (options.encoding.samples, scale_mps2));
+        written.map_err(|error| error.to_string())
     }
 
     /// Stroke that the tip follows with these options.

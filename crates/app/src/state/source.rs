@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use egui::DroppedFileHandle;
 use shagreen_formats::bounded_file::{self, FileKind};
+use shagreen_formats::picture::PHOTO_ENDINGS;
 use shagreen_formats::wav::sidecar_names;
 
 use shagreen_studio::file::{ending_of, is_special, shown_name};
@@ -65,20 +66,28 @@ pub(crate) fn paths_in(text: &str) -> Vec<Source> {
     lines.filter(|line| !line.is_empty()).map(|line| Source::Path(PathBuf::from(line))).collect()
 }
 
-/// Replaces folders by the files in them that can be imported, in alphabetical order.
+/// Replaces folders by the files in them that can be imported, in alphabetical order. A folder without any stays, so
+/// that this is reported.
 pub(crate) fn without_folders(sources: Vec<Source>) -> Vec<Source> {
     sources
         .into_iter()
         // If the path does not exist, reading it reports that.
-        .flat_map(|source| files_in(source.path(), |_| true).unwrap_or_else(|| vec![source]))
+        .flat_map(|source| {
+            let files = files_in(source.path(), |_| true).filter(|files| !files.is_empty());
+            files.unwrap_or_else(|| vec![source])
+        })
         .collect()
 }
 
-/// Wanted files in a folder that can be imported, in alphabetical order; `None` if it is no folder that can be listed.
+/// Wanted files in a folder that can be imported, photos included, in alphabetical order; `None` if it is no folder that can be listed.
 pub(crate) fn files_in(folder: &Path, is_wanted: impl Fn(&Path) -> bool) -> Option<Vec<Source>> {
     // Entries that cannot be inspected cannot be read either.
     let entries = std::fs::read_dir(folder).ok()?.filter_map(|entry| Some(entry.ok()?.path()));
-    let is_meant = |path: &PathBuf| path.is_file() && is_importable(&ending_of(path)) && is_wanted(path);
+    let is_meant = |path: &PathBuf| {
+        let ending = ending_of(path);
+        let is_taken = is_importable(&ending) || PHOTO_ENDINGS.contains(&ending.as_str());
+        is_taken && path.is_file() && is_wanted(path)
+    };
     let mut files: Vec<PathBuf> = entries.filter(is_meant).collect();
     files.sort();
     Some(files.into_iter().take(MAX_OF_FOLDER).map(Source::Path).collect())
@@ -126,12 +135,16 @@ mod tests {
     #[test]
     fn a_folder_is_the_files_in_it_that_can_be_imported() {
         let folder = tempfile::tempdir().unwrap();
-        for name in ["b.CSV", "a.wav", "notes.md"] {
+        for name in ["b.CSV", "a.wav", "notes.md", "wall.JPG"] {
             std::fs::write(folder.path().join(name), "").unwrap();
         }
         let found = without_folders(paths_in(&folder.path().display().to_string()));
         let names: Vec<String> = found.iter().map(Source::name).collect();
-        assert_eq!(names, ["a.wav", "b.CSV"]);
+        assert_eq!(names, ["a.wav", "b.CSV", "wall.JPG"]);
         assert_eq!(without_folders(paths_in("/nowhere/at/all.csv")).len(), 1);
+        let empty = folder.path().join("empty");
+        std::fs::create_dir(&empty).unwrap();
+        let found = without_folders(vec![Source::Path(empty.clone())]);
+        assert_eq!(found.iter().map(Source::path).collect::<Vec<_>>(), [empty], "it is not ignored");
     }
 }

@@ -8,8 +8,9 @@ pub const DUPLICATE: &str = "Duplicate";
 pub const DUPLICATE_HELP: &str =
     "Adds an exact copy of this texture at the same position. Both points are drawn side by side.";
 pub const DELETE: &str = "Delete";
+pub const IS_LAST: &str = "A project has at least one authored texture.";
 pub const RENAME: &str = "Rename…";
-pub const RENAME_HELP: &str = "Selects this texture and its name, above the sliders.";
+pub const RENAME_HELP: &str = "Selects this texture and its name, above the sliders. A double click on its row in the list does the same there.";
 pub const ADD_HERE: &str = "Add a texture here";
 pub const ADD_HERE_HELP: &str = "Adds an authored texture at this position, with the interpolation mode and options of the selected texture";
 pub const MOVE_HERE: &str = "Move the point here";
@@ -27,7 +28,9 @@ pub const NO_PICTURE: &str = "The picture is interpolated from the contributing 
 pub const PICTURE_WIDTH: &str = "Width of the surface in the picture";
 pub const PICTURE_WIDTH_HELP: &str = "Width of the surface that the picture shows, in mm";
 pub const TAKE_PICTURE_AWAY: &str = "Remove picture";
-pub const SNAPSHOTS_HELP: &str = "Saved state: position, interpolation, shape, path and picture. Click to restore it; right-click for its menu.";
+pub const SNAPSHOTS_HELP: &str =
+    "Saved state: position, interpolation, shape, path and picture. Right-click for its menu.";
+pub const ROW_NAME: &str = "New name";
 pub const UNNAMED: &str = "(no name)";
 pub const KEEP: &str = "Snapshot";
 pub const KEEP_HELP: &str = "Saves the state of the selected texture (position, interpolation, shape, path, picture). You can restore it later.";
@@ -55,7 +58,9 @@ pub fn select(name: &str) -> String {
 }
 
 pub fn copy_of(name: &str) -> String {
-    if name.ends_with(" copy") { name.to_owned() } else { format!("{name} copy") }
+    // "Oak copy 2" is a copy already; it gets the next number.
+    let begin = name.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end();
+    if begin.ends_with(" copy") { begin.to_owned() } else { format!("{name} copy") }
 }
 
 /// Accessible name of the color at this index.
@@ -63,12 +68,26 @@ pub fn color(index: usize) -> String {
     format!("{COLOR} {}", COLORS[index])
 }
 
+/// What a click on a snapshot does; `is_there` tells that its texture was not deleted.
+pub fn restore_help(name: &str, is_there: bool) -> String {
+    if is_there {
+        format!("Click to select {name} and restore it.")
+    } else {
+        format!("{name} was deleted. Click to add it again.")
+    }
+}
+
 /// Accessible name of a snapshot; numbers start at 1.
 pub fn snapshot(number: usize, name: &str) -> String {
     format!("Snapshot {number}: {name}")
 }
 
-/// Notice that a key has deleted an authored texture; `keys` are those of undo.
+/// Notice that a snapshot is restored; numbers start at 1, and `keys` are those of undo.
+pub fn restored(number: usize, name: &str, keys: &str) -> String {
+    format!("Snapshot {number} of {name} restored. Undo: {keys}")
+}
+
+/// Notice that an authored texture is deleted; `keys` are those of undo.
 pub fn deleted(name: &str, keys: &str) -> String {
     format!("{name} deleted. Undo: {keys}")
 }
@@ -80,4 +99,17 @@ pub fn delete_snapshot(number: usize) -> String {
 /// Name of a texture that is added from a snapshot.
 pub fn state_of(name: &str, number: usize) -> String {
     format!("{name} ({number})")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::copy_of;
+
+    #[test]
+    fn a_copy_of_a_copy_is_a_copy() {
+        for name in ["Oak", "Oak copy", "Oak copy 2", "Oak copy 12"] {
+            assert_eq!(copy_of(name), "Oak copy");
+        }
+        assert_eq!(copy_of("Oak 2"), "Oak 2 copy");
+    }
 }

@@ -9,7 +9,8 @@ pub const HIDDEN: &str = "Hidden (blind)";
 pub const EDIT: &str = "Edit";
 pub const EDIT_HELP: &str = "Ends the comparison and selects this texture, so that you can edit it.";
 pub const END: &str = "End comparison";
-pub const END_HELP: &str = "Plays the selected texture again, so that you can edit it.";
+pub const END_HELP: &str = "Plays the selected texture again, so that you can edit it (Escape).";
+pub const RESULT_HELP: &str = "p is the probability of at least as many correct answers by guessing. Below 0.05, guessing is an unlikely explanation. A few answers prove little: five correct ones of five are the first that get there.";
 pub const NEEDS_TWO: &str = "A comparison needs two authored textures; add another one";
 
 /// Accessible name of the button that plays a side.
@@ -35,8 +36,24 @@ pub fn compare_as(letter: &str) -> String {
     format!("Compare as {letter}")
 }
 
-/// Number of correct answers; `chance` is the probability of at least as many by guessing.
+/// Probability below which guessing alone is an unlikely explanation of the answers: the usual level of significance.
+const UNLIKELY: f64 = 0.05;
+
+/// Number of correct answers, what it means, and `chance`, the probability of at least as many by guessing.
 pub fn right(n_right: u64, n_answers: u64, chance: f64) -> String {
     let p = if chance < 0.001 { "p < 0.001".to_owned() } else { format!("p = {chance:.3}") };
-    format!("{n_right} of {n_answers} correct, {p}")
+    let meaning = if chance < UNLIKELY { "better than guessing" } else { "may be guessing" };
+    format!("{n_right} of {n_answers} correct: {meaning} ({p})")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::right;
+
+    #[test]
+    fn the_result_says_what_it_means_before_the_probability() {
+        assert_eq!(right(1, 2, 0.75), "1 of 2 correct: may be guessing (p = 0.750)");
+        assert_eq!(right(5, 5, 0.03125), "5 of 5 correct: better than guessing (p = 0.031)");
+        assert!(right(20, 20, 1e-6).ends_with("(p < 0.001)"));
+    }
 }

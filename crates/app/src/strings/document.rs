@@ -82,7 +82,9 @@ pub const SAVE_HINT: &str = "woods.shagreen";
 
 // Recovery.
 pub const RECOVERED_TITLE: &str = "Unsaved work";
-pub const RECOVERED_HELP: &str = "Shagreen ended before this work was saved. Recover one project now; the others are offered again at the next start unless you discard them.";
+pub const RECOVERED_HELP: &str =
+    "Shagreen ended before this work was saved. It is offered again at the next start unless you discard it.";
+pub const RECOVERED_SEVERAL_HELP: &str = "Shagreen ended before this work was saved. Recover one project now; the others are offered again at the next start unless you discard them.";
 pub const RECOVER: &str = "Recover";
 pub const DISCARD: &str = "Discard";
 pub const LATER: &str = "Later";

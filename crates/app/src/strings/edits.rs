@@ -87,6 +87,11 @@ pub fn relief_of(name: &str) -> String {
     format!("Set relief of {name}")
 }
 
+/// Edit that gives an added texture an estimated position.
+pub fn placed(name: &str) -> String {
+    format!("Estimate position of {name}")
+}
+
 /// Edit that removes an added texture from the list.
 pub fn removed_texture(name: &str) -> String {
     format!("Remove {name}")
@@ -101,7 +106,7 @@ pub fn kept_snapshot(name: &str) -> String {
 }
 
 pub fn restored_snapshot(name: &str) -> String {
-    format!("Restore snapshot to {name}")
+    format!("Restore snapshot of {name}")
 }
 
 pub fn opened(library: &str) -> String {

@@ -14,6 +14,31 @@ pub const CHECKING: &str = "Checking what the file cannot store…";
 pub const FOLDER_HINT: &str = "/path/to/folder";
 pub const ALL_HELP: &str = "One file for each authored texture, with its name, in the folder below";
 
+/// Added to the summary of an export into a folder that does not exist.
+pub const NEW_FOLDER: &str = " The folder is created.";
+/// What a file lacks of an authored texture whose path does not play.
+pub const PATH_LOST: &str = "the path: the file has the texture at the point. To export the path as a WAV signal, select \"Play path\" above the space first";
+/// What several files lack if each is scaled to its own peak.
+pub const LEVELS_LOST: &str = "the differences in level between the textures: each file has its own peak at −1 dB. Select \"One scale for all\" to keep them";
+
+/// What the files lack of authored textures with these names, which have paths.
+pub fn paths_lost(names: &[&str]) -> String {
+    format!(
+        "the paths of {}: the files have the textures at the points. To export a path as a WAV signal, select \"Play path\" above the space and export this texture alone",
+        names.join(", ")
+    )
+}
+
+/// Why the folder of the files cannot be created.
+pub fn no_folder(reason: &str, folder: &str) -> String {
+    format!("Cannot create the folder ({reason}). Choose another folder: {folder}")
+}
+
+/// Exported texture whose signal follows its path.
+pub fn along_path(subject: &str) -> String {
+    format!("{subject} along its path")
+}
+
 /// Name of a format with the ending of its files.
 pub fn format(name: &str, ending: &str) -> String {
     format!("{name} (.{ending})")

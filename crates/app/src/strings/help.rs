@@ -19,7 +19,7 @@ pub const SKIP: &str = "Skip tour";
 pub const MORE_KEYS: [(&str, &str); 9] = [
     ("Arrow keys", "Move the selected point (Shift: larger steps)"),
     ("Tab", "Move the keyboard focus: title bar, status bar, stroke pad, scope, textures, inspector, space"),
-    ("Escape", "Restore the state before a drag, or return from a texture that plays alone"),
+    ("Escape", "Restore the state before a drag, end a comparison, or end solo"),
     ("Enter on a texture", "Play it alone"),
     ("Ctrl with + - 0", "Zoom the interface in or out, or reset it"),
     ("Wheel over the space", "Zoom the view of the space"),

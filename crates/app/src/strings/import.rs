@@ -9,9 +9,11 @@ pub const TITLE: &str = "Import";
 /// Kind of file in the dialog of the system.
 pub const KIND: &str = "Recordings, models, libraries and pictures";
 pub const DROP_HERE: &str = "Drop recordings, photos, models or a library";
-pub const DROP_KINDS: &str = "Recordings (CSV, TXT, TSV, WAV) · photos (JPEG, PNG, WebP, BMP, TIFF) · HaTT models (XML) · libraries (JSON) · a column map (map.toml) · folders";
+pub const DROP_KINDS: &str = "Recordings (CSV, TXT, TSV, WAV), photos (JPEG, PNG, WebP, BMP, TIFF), HaTT models (XML), libraries (JSON), a column map (map.toml), folders";
 /// Files that can be imported, below the reason why one cannot be.
 pub const ACCEPTED: &str = "Files that can be imported: recordings (CSV, TXT, TSV, WAV), photos (JPEG, PNG, WebP, BMP, TIFF), HaTT models (XML), Shagreen libraries (JSON), a column map (map.toml), and folders of these.";
+pub const IS_PROJECT: &str = "this is a project of Shagreen. Open it with File, Open…; to bring one of its authored textures here, copy it there and paste it here";
+pub const NOTHING_IN_FOLDER: &str = "this folder has no file that can be imported; folders inside it are not searched. Choose one of these, or another folder";
 pub const PATHS: &str = "Paths of files or folders";
 pub const PATHS_HINT: &str = "Path of a file or folder…";
 pub const READ: &str = "Read";
@@ -76,7 +78,7 @@ pub const NAME: &str = "Name of the imported texture";
 pub const NAME_LABEL: &str = "Name";
 pub const TAGS: &str = "Tags of the imported texture";
 pub const TAGS_LABEL: &str = "Tags";
-pub const TAGS_HINT: &str = "wood, smooth";
+pub const TAGS_HINT: &str = "e.g. wood, smooth";
 pub const FIT: &str = "Fit";
 pub const RATE: &str = "Sample rate";
 pub const RATE_HELP: &str =
@@ -172,7 +174,8 @@ pub fn fit_in_words(report: &FitReport) -> String {
     format!(
         "{} segments, coverage {:.0} %; GFC {:.3} and level error {:.2} dB (medians, {})",
         report.segments.len(),
-        100.0 * report.coverage,
+        // Without the sign of a negative zero.
+        100.0 * report.coverage + 0.0,
         report.gfc_median(),
         report.level_error_db_median(),
         if report.held_out { "held-out" } else { "not held-out" }
@@ -220,9 +223,11 @@ pub fn misfit(what: Ask, problem: &str) -> String {
     format!("{problem}{instead}")
 }
 
-/// Why a file of an unknown kind cannot be imported.
+/// Why a file of an unknown kind cannot be imported. It was read as a table of a recording; `reason` says why it is none. What
+/// the reason advises is left out: a file of another kind is not to be corrected.
 pub fn no_kind(reason: &str) -> String {
-    format!("files of this kind cannot be imported ({reason})")
+    let what = reason.rsplit_once("; ").map_or(reason, |(what, _)| what);
+    format!("files of this kind cannot be imported, and this one is not the table of a recording ({what})")
 }
 
 /// Note on a texture that was fitted at the rate of the space in Hz.

@@ -1,7 +1,7 @@
 //! Paths: textures that change along a stroke.
 
 pub const PATH: &str = "Path";
-pub const PATH_HELP: &str = "Draws a path through the space: press and drag, or click points and textures (P). The texture then changes along the stroke. Escape leaves the tool.";
+pub const PATH_HELP: &str = "Draws a path through the space: press and drag, or click points and textures (P). The automatic stroke then follows the path. Escape leaves the tool.";
 pub const PLAY: &str = "Play path";
 pub const STOP: &str = "Stop path";
 pub const PLAY_HELP: &str = "During a stroke, the texture changes along the path; each touch starts at the beginning of the path. The authored point does not move, and its texture plays again when you stop the path.";

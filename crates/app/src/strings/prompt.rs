@@ -15,7 +15,8 @@ pub const SIMULATING: &str = "Simulating";
 pub const SIMULATING_HELP: &str = "Strokes the surface of the picture with a simulated pen. Until this is done, the texture is interpolated. Afterwards it feels as its picture looks.";
 pub const STOP_SIMULATION: &str = "Stop simulating";
 pub const STOP_SIMULATION_HELP: &str = "The texture remains interpolated.";
-pub const SIMULATED: &str = "Simulated from the heights that the picture shows; the list of textures has it.";
+pub const SIMULATED: &str =
+    "The texture is simulated from the heights that the picture shows. The list of textures has it, too.";
 pub const SIMULATION_BROKEN_OFF: &str =
     "The simulation of a texture stopped unexpectedly; the texture remains interpolated";
 pub const ANOTHER: &str = "Another";
@@ -32,7 +33,8 @@ pub const NO_DIFFUSION: &str =
     "This entry needs a diffusion model, and none is installed. Install one with \"shagreen model add\".";
 pub const BROKEN_OFF: &str = "Generating stopped unexpectedly; try another description";
 pub const NO_MODELS: &str = "this system has no folder for models; use the procedural generator";
-pub const STILL_BUSY: &str = "A texture is being generated. Wait for it, or press Stop.";
+pub const STILL_BUSY: &str =
+    "Another texture is still being generated: wait for it, or press Stop. Then generate again.";
 pub const OTHER_AXES: &str = "The axes changed while the texture was generated. Generate it again.";
 pub const NOTHING_SAID: &str = "No description";
 pub const A_PHOTO: &str = "photo";
@@ -67,7 +69,10 @@ pub fn said_of_words(understood: &PromptInterpretation) -> Vec<String> {
     if understood.is_about_touch() {
         let of = |word: &Word| {
             let not = if word.is_denied { "not " } else { "" };
-            format!("{not}{}", word.taken_for)
+            // "deep" counts as "dark": without the word of the prompt, it would be in neither list.
+            let typed =
+                if word.text == word.taken_for { String::new() } else { format!(" (\"{}\")", word.text) };
+            format!("{not}{}{typed}", word.taken_for)
         };
         let words: Vec<String> = understood.words.iter().map(of).collect();
         said.push(format!("Understood: {}.", words.join(", ")));
@@ -174,4 +179,17 @@ pub fn took(name: &str, material: Option<&str>) -> String {
 /// Name of the edit that replaces a generated texture.
 pub fn remade(name: &str) -> String {
     format!("Regenerate {name}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::said_of_words;
+    use shagreen_core::surfaces::prompt::interpret;
+    use shagreen_formats::lexicon_toml::built_in_lexicon;
+
+    #[test]
+    fn every_word_that_counts_is_named_as_it_was_typed() {
+        let said = said_of_words(&interpret("deep velvet", built_in_lexicon().unwrap()));
+        assert_eq!(said, ["Understood: dark (\"deep\"), velvet."]);
+    }
 }

@@ -17,6 +17,8 @@ pub const PATH_HINT: &str = "Path of a photo or height map, or drop it here…";
 /// Kind of file in the dialog of the system.
 pub const KIND: &str = "Pictures";
 pub const READ: &str = "Read";
+/// Name of the picture of the authored texture.
+pub const OWN_PICTURE: &str = "Picture of the texture";
 pub const NO_PICTURE: &str = "No picture";
 pub const PREVIEW: &str = "Picture of the relief";
 pub const BROKEN: &str = "Reading the picture stopped unexpectedly; choose another picture.";
@@ -64,7 +66,7 @@ pub fn of_library(name: &str) -> String {
 /// What happens to an authored texture.
 pub fn of_authored(name: &str) -> String {
     format!(
-        "{name} is interpolated. A texture like it, with the heights of the picture, is added to the project and pinned."
+        "A copy of {name} with the heights of the picture is added to the project, and {name} pins it: it then feels and looks like the picture. Undo removes both."
     )
 }
 

@@ -73,6 +73,19 @@ pub fn unit(view: View) -> &'static str {
     }
 }
 
+/// The same where there is little room.
+pub fn short_unit(view: View) -> &'static str {
+    match view {
+        View::Spectrum => "dB",
+        _ => unit(view),
+    }
+}
+
+/// Number on the frequency axis; only the first has its unit.
+pub fn frequency_mark(hz: f64, first_hz: f64) -> String {
+    if hz < 1.1 * first_hz { format!("{hz:.0} Hz") } else { format!("{hz:.0}") }
+}
+
 /// Unit of the horizontal axis.
 pub fn x_unit(view: View) -> &'static str {
     match view {

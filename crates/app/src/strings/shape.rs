@@ -86,6 +86,14 @@ pub fn suffix(control: ShapeControl) -> &'static str {
     }
 }
 
+/// Notice that a typed number is out of range.
+pub fn limited(control: ShapeControl) -> String {
+    let limits = control.limits();
+    let [low, high] = [limits.start(), limits.end()]
+        .map(|limit| format!("{}{}{}", prefix(control), number(control, *limit), suffix(control)));
+    format!("{}: {low} to {high}", name(control))
+}
+
 /// The number, with as many decimals as a hand can set.
 pub fn number(control: ShapeControl, value: f64) -> String {
     match control {

@@ -20,6 +20,12 @@ pub const LOOP_HELP: &str = "The end goes on into the beginning, so that the sig
 pub const RATE: &str = "Rate";
 /// Label of the type of the samples.
 pub const SAMPLES: &str = "Samples";
+/// Option for several files.
+pub const ONE_SCALE: &str = "One scale for all";
+/// Explanation of the option.
+pub const ONE_SCALE_HELP: &str = "Divides all signals by the same acceleration: the strongest peak is at −1 dB, and weaker textures stay weaker. Otherwise each file has its own peak at −1 dB.";
+/// When the option is not available.
+pub const NO_ONE_SCALE: &str = "For an export of all authored textures whose level is \"Peak at −1 dB\"";
 /// Label of the level.
 pub const LEVEL: &str = "Level";
 

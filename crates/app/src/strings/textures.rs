@@ -40,7 +40,10 @@ pub const BACK_NAME: &str = "Back to the authored texture";
 pub const BACK_HELP: &str = "Plays the selected authored texture again (Escape).";
 pub const AUTHOR: &str = "Add as authored texture";
 pub const AUTHOR_HELP: &str = "Adds an authored texture that is exactly this texture: at its position, in the mode Field and pinned. Dragging the row onto the space does the same.";
-pub const NO_POSITION: &str = "This texture has no position in the space.";
+pub const NO_POSITION: &str = "This texture has no position in the space. The menu of an added texture can estimate one; ratings give one in Build.";
+pub const ESTIMATE_PLACE: &str = "Estimate position";
+pub const ESTIMATE_PLACE_HELP: &str = "Estimates the position from textures with similar vibration and a known position. The texture then contributes to the space. The estimate is not a human rating.";
+pub const CANNOT_PLACE: &str = "No position can be estimated: this needs five textures with positions, no built space or chosen attributes on the axes, and a sample rate of the texture that is not above that of the space.";
 pub const STAR: &str = "Star";
 pub const UNSTAR: &str = "Unstar";
 pub const STAR_HELP: &str = "Starred textures come first in the list. The project stores the stars.";
@@ -54,6 +57,7 @@ pub const REMOVE_HELP: &str = "Removes the texture from the project. Undo restor
 pub const CANNOT_REMOVE: &str =
     "This texture is part of the library. Only textures that were added to the project can be removed.";
 pub const WHOLE_SPACE: &str = "Use in the whole space";
+pub const OWN_HELP: &str = "Its own texture contributes only to this authored texture, and is hidden in the space while another one is selected. To use it like the textures of the library, right-click and choose \"Use in the whole space\".";
 pub const MORE_HELP: &str = "Opens the menu of this texture; a right-click on the row does the same";
 
 pub const TITLE: &str = "Texture details";

@@ -8,6 +8,7 @@ use super::Window;
 use crate::author::new_texture::next_color;
 use crate::command::Command;
 use crate::command::clipboard::ClipboardCommand;
+use crate::look::notice::show_notice;
 use crate::panel::Panel;
 use crate::state::clipboard::{copied, pasted};
 use crate::state::edit::Edit;
@@ -23,7 +24,7 @@ impl Window {
         match command {
             ClipboardCommand::Copy(key) => {
                 if let Some((_, name)) = self.copy_authored(key, ctx) {
-                    self.session.say(strings::copied(&name));
+                    show_notice(ctx, strings::copied(&name));
                 }
             }
             ClipboardCommand::Cut(key) => match self.copy_authored(key, ctx) {
@@ -48,7 +49,7 @@ impl Window {
         let shown = self.compare.heard_key().filter(|_| !self.compare.is_hidden());
         let key = key.or(shown).unwrap_or(self.project.texture().key);
         let texture = self.project.authored.iter().find(|texture| texture.key == key)?;
-        let copied = copied(texture, self.session.library(), self.session.poles());
+        let copied = copied(texture, &self.project, self.session.library(), self.session.poles());
         ctx.copy_text(write_copied_texture(&copied));
         Some((key, texture.name.clone()))
     }
@@ -69,12 +70,17 @@ impl Window {
         } else {
             pasted.texture.color
         };
-        let mut said = vec![strings::pasted(&pasted.texture.name)];
-        said.extend(pasted.warnings);
+        let said = strings::pasted(&pasted.texture.name);
         // Each paste is a step of its own, even if they follow each other quickly.
         self.gesture.begin_another();
-        let texture = AuthoredTexture { color, ..pasted.texture };
-        self.carry_out(Command::Edit(Edit::Author(texture)), ctx);
-        self.say_warnings(&said);
+        let texture = Box::new(AuthoredTexture { color, ..pasted.texture });
+        self.carry_out(Command::Edit(Edit::AuthorWith { texture, own: pasted.own }), ctx);
+        if pasted.warnings.is_empty() {
+            show_notice(ctx, said);
+        } else {
+            let mut warnings = vec![said];
+            warnings.extend(pasted.warnings);
+            self.say_warnings(&warnings);
+        }
     }
 }

@@ -1,8 +1,10 @@
 //! Execution of commands after a frame.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use egui::Popup;
+use shagreen_core::space::texture_path::UserPath;
 use shagreen_formats::actuator_toml::built_in_actuators;
 use shagreen_studio::export::WAV;
 use shagreen_studio::file::shown_name;
@@ -17,6 +19,7 @@ use crate::command::networks::NetworksCommand;
 use crate::command::{Command, FileCommand};
 use crate::look::motion;
 use crate::look::notice::{clear_earlier_notice, clear_notice, show_notice};
+use crate::look::text_selection::select_all;
 use crate::panel::Panel;
 use crate::session::OutputChoice;
 use crate::session::kept_path::kept_path;
@@ -28,7 +31,7 @@ use crate::sheets::networks_sheet::NetworksSheet;
 use crate::sheets::palette::PaletteSheet;
 use crate::sheets::save::SaveSheet;
 use crate::state::compare::CompareCommand;
-use crate::state::edit::Edit;
+use crate::state::edit::{Edit, name_of_snapshot};
 use crate::strings::{authored, document, stroke};
 use crate::workspace::Workspace;
 
@@ -80,7 +83,7 @@ impl Window {
         self.carry_out(Command::Edit(Edit::Author(copy)), ctx);
     }
 
-    /// Selects an authored texture and puts the keyboard focus on its name.
+    /// Selects an authored texture and its name, so that typing replaces the name.
     fn rename_authored(&mut self, key: u32, ctx: &egui::Context) {
         if key != self.project.texture().key {
             self.carry_out(Command::Edit(Edit::Select(key)), ctx);
@@ -88,6 +91,7 @@ impl Window {
         // The inspector shows the selected texture, and not one that a comparison plays.
         self.compare.end();
         ctx.memory_mut(|memory| memory.request_focus(name_field()));
+        select_all(ctx, name_field(), &self.project.texture().name);
     }
 
     /// Selects an authored texture and opens the export sheet, which exports what is audible, once its models are computed.
@@ -125,11 +129,22 @@ impl Window {
         if is_for_another || self.project.authored.len() < 2 {
             return;
         }
-        let texture = self.project.texture();
-        let key = texture.key;
-        let said = authored::deleted(&texture.name, &Command::Undo.shortcut_text(ctx));
-        self.carry_out(Command::Edit(Edit::Remove(key)), ctx);
-        show_notice(ctx, said);
+        self.carry_out(Command::Edit(Edit::Remove(self.project.texture().key)), ctx);
+    }
+
+    /// What the status bar says of an edit whose result may not be visible where the user looks.
+    fn said_of(&self, edit: &Edit, ctx: &egui::Context) -> Option<String> {
+        let keys = Command::Undo.shortcut_text(ctx);
+        match edit {
+            Edit::Remove(key) if self.project.authored.len() > 1 => {
+                let removed = self.project.authored.iter().find(|texture| texture.key == *key);
+                removed.map(|texture| authored::deleted(&texture.name, &keys))
+            }
+            Edit::RestoreSnapshot(index) => {
+                Some(authored::restored(index + 1, name_of_snapshot(&self.project, *index), &keys))
+            }
+            _ => None,
+        }
     }
 
     /// Executes a command about a comparison. A hidden texture does not begin with the sound of the previous one, which
@@ -144,6 +159,15 @@ impl Window {
         if self.compare.is_hidden() {
             self.session.fall_silent();
         }
+    }
+
+    /// Whether the path tool has drawn a path that can play, so that a stroke is meant for the path. Another texture that plays
+    /// instead of the selected one has priority.
+    fn draws_path(&self) -> bool {
+        let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
+        let is_other = panel.solo().is_some() || self.compare.heard().is_some();
+        let route = self.project.texture().path.as_ref().and_then(UserPath::route);
+        self.pages.author.canvas.tool.is_on && !is_other && route.is_some() && !self.session.is_path_playing()
     }
 
     /// Adds the path of the selected authored texture to the list of textures.
@@ -194,6 +218,7 @@ impl Window {
         self.compare.end();
         // Undo no longer reverts what an earlier notice names.
         clear_earlier_notice(ctx);
+        self.session.forget_read_message(Instant::now());
         let adds_row = match &edit {
             Edit::AddTextures(_) => true,
             Edit::AddRelief { place, .. } => !matches!(place, ReliefPlace::InPlaceOf(_)),
@@ -203,7 +228,11 @@ impl Window {
             self.pages.author.library.show_all();
             self.pages.author.library.reveal = Some(self.session.textures().len());
         }
+        let said = self.said_of(&edit, ctx);
         self.history.apply(&mut self.project, edit, self.gesture.current());
+        if let Some(said) = said {
+            show_notice(ctx, said);
+        }
     }
 
     /// Executes a command.
@@ -245,15 +274,18 @@ impl Window {
                 self.history.redo(&mut self.project);
             }
             Command::ToggleHand => {
-                let hand = (!self.session.hand_is_running()).then_some(self.pages.stage.pad.input());
-                self.session.set_hand(hand);
+                let starts = !self.session.hand_is_running();
+                if starts && self.draws_path() {
+                    self.session.play_path(true);
+                }
+                self.session.set_hand(starts.then_some(self.pages.stage.pad.input()));
             }
             Command::TogglePathTool => self.pages.author.canvas.tool.toggle(),
             Command::PlayPath(is_played) => self.session.play_path(is_played),
             Command::KeepPath => self.keep_path(ctx),
             Command::ToggleMute => self.session.toggle_mute(),
             Command::ToggleTheme => self.toggle_theme(ctx),
-            Command::DismissMessage => self.session.forget_message(),
+            Command::DismissMessage => self.session.forget_messages(),
             Command::ListOutputs => self.session.list_outputs(ctx),
             Command::OpenOutput(id) => {
                 self.output.asked = Some(id.clone());

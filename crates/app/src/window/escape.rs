@@ -1,10 +1,11 @@
-//! Escape: reverts the present drag, leaves the path tool, or leaves the texture that plays alone.
+//! Escape: reverts the present drag, leaves the path tool, ends the comparison, or leaves the texture that plays alone.
 
 use egui::{Context, Key, Modifiers, Popup};
 
 use super::Window;
 use crate::command::{Command, was_writing};
 use crate::panel::Panel;
+use crate::state::compare::CompareCommand;
 use crate::state::edit::Edit;
 use crate::workspace::Workspace;
 
@@ -24,6 +25,9 @@ impl Window {
         let plays_alone = panel.solo().is_some();
         let command = if self.pages.author.canvas.tool.is_on {
             Command::TogglePathTool
+        } else if let Some(side) = self.compare.heard() {
+            // To hear the audible side once more ends the comparison.
+            Command::Compare(CompareCommand::Hear(side))
         } else if plays_alone {
             Command::Edit(Edit::Solo(None))
         } else {

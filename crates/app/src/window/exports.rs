@@ -1,5 +1,6 @@
 //! Opens the export sheet.
 
+use shagreen_core::space::texture_path::UserPath;
 use shagreen_formats::library::id_from_name;
 use shagreen_studio::export::{WAV, listed};
 
@@ -36,7 +37,10 @@ impl Window {
         });
         // A blind comparison hides the authored textures, and a signal of the Signals workspace takes their place.
         let n_authored = if self.session.authored().is_some() { self.project.authored.len() } else { 0 };
-        let audible = AudibleTexture { name, signal, entry };
+        let texture = compared.as_deref().unwrap_or(self.project.texture());
+        let route = texture.path.as_ref().and_then(UserPath::route);
+        let has_path = route.is_some() && !is_solo && self.session.felt_name().is_none();
+        let audible = AudibleTexture { name, signal, entry, has_path };
         let subject = ExportSubject { audible, is_solo, n_authored, contact };
         let sheet = ExportSheet::new(subject, possible, &self.exports_folder, &id);
         self.sheet = Sheet::Export(Box::new(sheet));

@@ -1,6 +1,7 @@
 //! Commands about files: opening, saving and leaving projects. Unsaved changes are never discarded without asking.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use egui::{Context, ViewportCommand};
 use shagreen_formats::imported::Imported;
@@ -237,6 +238,7 @@ impl Window {
         self.prompts.forget();
         self.history = History::default();
         self.session.play_path(false);
+        self.session.forget_read_message(Instant::now());
         self.pages.author.canvas.tool.leave();
         self.pages.author.library.show_all();
         self.sheet = Sheet::Closed;

@@ -76,7 +76,7 @@ impl Window {
     fn relief_target(&self, of: ReliefOf) -> ReliefTarget {
         let name = self.name_of(&of);
         let Some(name) = name else {
-            return ReliefTarget { of, note: String::new(), refusal: Some(strings::GONE) };
+            return ReliefTarget { of, note: String::new(), picture: None, refusal: Some(strings::GONE) };
         };
         let (note, refusal) = match &of {
             ReliefOf::Listed(id) => {
@@ -95,7 +95,11 @@ impl Window {
                 (strings::of_authored(&name), (!has_model).then_some(strings::NO_MODEL))
             }
         };
-        ReliefTarget { of, note, refusal }
+        let picture = match &of {
+            ReliefOf::Authored(key) => self.authored_with(*key).and_then(|texture| texture.picture.clone()),
+            ReliefOf::Listed(_) => None,
+        };
+        ReliefTarget { of, note, picture, refusal }
     }
 
     /// Gives the texture of the open sheet a relief, in one step. If that fails, the sheet stays and says why.

@@ -30,7 +30,7 @@ impl SelectedOutput {
 /// are unknown and no output is opened.
 pub(super) fn open_as_left(session: &mut Session, output: OutputChoice, files: &Files, ctx: &Context) {
     if let Some(problem) = files.settings_problem() {
-        session.say(problem.to_owned());
+        session.say_of_output(problem.to_owned());
         return;
     }
     let left = files.settings.rig.as_ref();

@@ -1,17 +1,23 @@
 //! Status bar: output, latency and messages.
 
-use egui::{Align, Button, Label, Layout, Response, RichText, Sense, Ui, vec2};
-use shagreen_device::status::LinkState;
+use egui::text::LayoutJob;
+use egui::{Align, Button, Color32, Label, Layout, Response, RichText, Sense, TextStyle, Ui, vec2};
+use shagreen_device::status::{LinkState, Status};
 
 use crate::command::Command;
 use crate::look::notice::notice;
 use crate::look::theme::tokens;
 use crate::panel::Panel;
+use crate::session::Session;
 use crate::sheets::devices::output_choice_ui::output_choice_ui;
 use crate::strings;
 
 /// Greatest width of a message, in points. Its tooltip has the whole text.
-const MESSAGE_WIDTH: f32 = 420.0;
+const MESSAGE_WIDTH: f32 = 600.0;
+/// Greatest number of lines of a message.
+const MESSAGE_LINES: usize = 2;
+/// Width of the status bar below which the figures of the output leave their place to a message, in points.
+const FIGURES_WIDTH: f32 = 1100.0;
 /// Time for which an output must have stalled before the status bar says so, in seconds: opening it again takes less.
 const STALLED_SECS: f64 = 2.0;
 
@@ -37,11 +43,39 @@ fn lost_ui(ui: &mut Ui, id: &str) -> Option<Command> {
     again.clicked().then(|| Command::OpenOutput(id.to_owned()))
 }
 
-/// Draws a label in at most [`MESSAGE_WIDTH`]. A longer text is cut off, and its tooltip has the whole.
-fn narrow_ui(ui: &mut Ui, label: Label) -> Response {
+/// Draws a message in at most [`MESSAGE_LINES`] lines of [`MESSAGE_WIDTH`]. A longer text is cut off; the caller's
+/// tooltip has the whole.
+fn message_ui(ui: &mut Ui, text: &str, color: Color32, sense: Sense) -> Response {
     let size = vec2(ui.available_width().min(MESSAGE_WIDTH), ui.available_height());
+    let mut job = LayoutJob::simple(text.to_owned(), TextStyle::Small.resolve(ui.style()), color, size.x);
+    job.wrap.max_rows = MESSAGE_LINES;
+    let label = Label::new(job).wrap().halign(Align::LEFT).show_tooltip_when_elided(false);
+    let label = label.selectable(sense != Sense::hover());
     let layout = Layout::right_to_left(Align::Center);
-    ui.allocate_ui_with_layout(size, layout, |ui| ui.add(label.truncate())).inner
+    ui.allocate_ui_with_layout(size, layout, |ui| ui.add(label.sense(sense))).inner
+}
+
+/// Draws latency, load, dropouts and level of the open output.
+fn figures_ui(ui: &mut Ui, session: &Session, status: &Status) {
+    let late = session.latency_ms().map_or(String::new(), |ms| format!("latency about {ms:.0} ms"));
+    weak(ui, late, strings::LATENCY_HELP);
+    ui.separator();
+    weak(ui, format!("load {:.1} %", 100.0 * status.load), strings::LOAD_HELP);
+    ui.separator();
+    weak(ui, strings::dropouts(status.underruns), strings::DROPOUTS_HELP);
+    // The level would reveal the texture in a blind comparison.
+    if !session.is_hidden() {
+        ui.separator();
+        // Rounded first, to avoid "-0 dB".
+        let level = (20.0 * f64::from(status.level_mps2.max(1e-4)).log10()).round() + 0.0;
+        weak(ui, format!("{level:.0} dB re 1 m/s²"), strings::LEVEL_HELP);
+    }
+}
+
+/// Draws secondary text with a tooltip.
+fn weak(ui: &mut Ui, text: String, help: &str) {
+    let text = RichText::new(text).small().color(tokens(ui.ctx()).text_weak);
+    ui.add(Label::new(text).selectable(false)).on_hover_text(help);
 }
 
 /// Draws the status bar and returns the commands of the user. `says_source` tells that the canvas states the source of
@@ -51,11 +85,9 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>, says_source: bool) -> Vec<Comma
     let mut commands = Vec::new();
     ui.horizontal_centered(|ui| {
         let session = panel.session;
+        // In a narrow window, a message needs the place of the figures.
+        let has_figures = ui.available_width() >= FIGURES_WIDTH || session.messages().next().is_none();
         commands.extend(output_choice_ui(ui, session));
-        let weak = |ui: &mut Ui, text: String, help: &str| {
-            ui.add(Label::new(RichText::new(text).small().color(t.text_weak)).selectable(false))
-                .on_hover_text(help);
-        };
         if let Some(status) = session.status() {
             // The most important status comes first.
             if status.tripped {
@@ -74,23 +106,13 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>, says_source: bool) -> Vec<Comma
             {
                 commands.extend(lost_ui(ui, id));
             }
-            let late = session.latency_ms().map_or(String::new(), |ms| format!("latency about {ms:.0} ms"));
-            weak(ui, late, strings::LATENCY_HELP);
-            ui.separator();
-            weak(ui, format!("load {:.1} %", 100.0 * status.load), strings::LOAD_HELP);
-            ui.separator();
-            weak(ui, strings::dropouts(status.underruns), strings::DROPOUTS_HELP);
-            // The level would reveal the texture in a blind comparison.
-            if !session.is_hidden() {
-                ui.separator();
-                // Rounded first, to avoid "-0 dB".
-                let level = (20.0 * f64::from(status.level_mps2.max(1e-4)).log10()).round() + 0.0;
-                weak(ui, format!("{level:.0} dB re 1 m/s²"), strings::LEVEL_HELP);
+            if has_figures {
+                figures_ui(ui, session, status);
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if let Some(text) = notice(ui.ctx()) {
-                narrow_ui(ui, Label::new(RichText::new(text).color(t.accent)).selectable(false));
+                message_ui(ui, &text, t.accent, Sense::hover()).on_hover_text(&text);
             }
             // In a blind comparison, it would tell which texture was not played before.
             if session.is_long_preparing() && !session.is_hidden() {
@@ -106,12 +128,9 @@ pub fn status_ui(ui: &mut Ui, panel: &Panel<'_>, says_source: bool) -> Vec<Comma
                     commands.push(Command::TakeOverOutput);
                 }
             }
-            for message in [session.output_message(), session.pen_message()].into_iter().flatten() {
-                let label = Label::new(RichText::new(message).color(t.error))
-                    .show_tooltip_when_elided(false)
-                    .sense(Sense::click());
+            for message in session.messages() {
                 let help = format!("{message}\n{}", strings::DISMISS);
-                if narrow_ui(ui, label).on_hover_text(help).clicked() {
+                if message_ui(ui, message, t.error, Sense::click()).on_hover_text(help).clicked() {
                     commands.push(Command::DismissMessage);
                 }
             }

@@ -16,6 +16,8 @@ const WIDTH: f32 = 256.0;
 const TEXT_HEIGHT: f32 = 160.0;
 /// Size of a card in its first frame, in points.
 const CARD: Vec2 = vec2(282.0, 230.0);
+/// Distance between the place of a card and its frame, in points: the frame crosses no control.
+const AROUND_PLACE: f32 = 4.0;
 /// Distance of a card from the edges of the window, in points.
 const EDGE: f32 = 2.0;
 /// Minimum width of the buttons that lead to another card, in points.
@@ -87,7 +89,7 @@ impl Tour {
             // The place is not laid out yet.
             return false;
         }
-        highlight(ctx, place, window);
+        highlight(ctx, place.expand(AROUND_PLACE).intersect(window), window);
         let corner = beside(Step::ALL[index], place, window, self.card.size());
         let (card, asked) = card_ui(ctx, index, corner);
         self.card = card;
@@ -153,7 +155,7 @@ fn pressed(ctx: &Context) -> Option<Asked> {
     if is_pressed(Key::Escape) { Some(Asked::End) } else { is_pressed(Key::Enter).then_some(Asked::Next) }
 }
 
-/// Frames the place of a card. Everything around it is darkened and takes no clicks. Menus stay above.
+/// Frames the place of a card, with its margin. Everything around it is darkened and takes no clicks. Menus stay above.
 fn highlight(ctx: &Context, place: Rect, window: Rect) {
     let rect = |left, top, right, bottom| Rect::from_min_max(pos2(left, top), pos2(right, bottom));
     for (name, part) in [
@@ -168,7 +170,7 @@ fn highlight(ctx: &Context, place: Rect, window: Rect) {
     }
     let painter = ctx.layer_painter(LayerId::new(Order::Middle, Id::unique("tour place")));
     let stroke = Stroke::new(2.5, tokens(ctx).warning);
-    painter.rect_stroke(place.shrink(2.0), f32::from(RADIUS), stroke, StrokeKind::Inside);
+    painter.rect_stroke(place, f32::from(RADIUS), stroke, StrokeKind::Inside);
 }
 
 /// Covers a part of the window, which then takes no clicks.

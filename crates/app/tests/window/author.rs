@@ -7,11 +7,13 @@ use egui::{Event, Key, Modifiers, PointerButton, Pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 use shagreen_app::strings;
-use shagreen_app::strings::document;
+use shagreen_app::strings::{document, stroke};
 use shagreen_core::texture::blend::Mode;
+use shagreen_studio::project::new_project;
 
 use crate::support::{
-    Author, author, choose_mode, click, drag, unnamed_controls, wait, wait_for_field, window,
+    Author, author, author_of, begin, choose_mode, click, drag, shown, unnamed_controls, wait,
+    wait_for_field, window,
 };
 
 /// Runs frames for some seconds in real time.
@@ -47,8 +49,8 @@ fn every_control_has_a_name() {
     for (role, name) in [
         (Role::Slider, strings::ROUGH_SMOOTH),
         (Role::Slider, strings::HARD_SOFT),
-        (Role::Slider, strings::HAND_SPEED),
-        (Role::Slider, strings::HAND_FORCE),
+        (Role::SpinButton, strings::HAND_SPEED),
+        (Role::SpinButton, strings::HAND_FORCE),
         (Role::Slider, strings::POINT),
         (Role::TextInput, strings::NAME),
         (Role::TextInput, strings::SEARCH),
@@ -138,6 +140,23 @@ fn sliders_move_the_point_and_undo_brings_it_back() {
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     harness.run_steps(3);
     assert!((window(&harness).project().texture().at.rough_smooth - 80.0).abs() < 1e-9);
+}
+
+/// A slider with hardly any rail could not be dragged: there, the number has its name instead.
+#[test]
+fn the_stroke_has_sliders_only_where_their_rails_have_room() {
+    for (size, role, is_named) in
+        [([960.0, 600.0], Role::SpinButton, true), ([1920.0, 1080.0], Role::Slider, false)]
+    {
+        let mut harness = author_of(begin(new_project()), size);
+        harness.run_steps(2);
+        for (name, word) in
+            [(strings::HAND_SPEED, stroke::SPEED), (strings::HAND_FORCE, stroke::NORMAL_FORCE)]
+        {
+            assert!(harness.query_by_role_and_label(role, name).is_some(), "{name} at {size:?}");
+            assert_eq!(shown(&harness).iter().any(|text| text == word), is_named, "{word}");
+        }
+    }
 }
 
 #[test]

@@ -160,6 +160,54 @@ fn a_copy_and_a_snapshot_keep_what_was() {
     assert!(window(&harness).project().snapshots.is_empty());
 }
 
+/// A snapshot belongs to its texture, whatever is selected. A texture that was deleted comes back with it.
+#[test]
+fn a_snapshot_restores_the_texture_that_it_was_taken_of() {
+    let mut harness = author();
+    let name = window(&harness).project().texture().name.clone();
+    slide(&mut harness, strings::ROUGH_SMOOTH, 30.0);
+    click(&mut harness, words::KEEP);
+    slide(&mut harness, strings::ROUGH_SMOOTH, 70.0);
+    click(&mut harness, words::ADD);
+    let other = window(&harness).project().texture().clone();
+    click(&mut harness, &words::snapshot(1, &name));
+    assert!(says(&harness, &words::restored(1, &name, "")));
+    let project = window(&harness).project();
+    assert_eq!((project.selected, project.texture().at.rough_smooth), (0, 30.0));
+    assert_eq!(*project.authored[1], other, "the other one stays");
+    take_of_menu(&mut harness, strings::POINT, words::DELETE);
+    assert_eq!(names(&harness), std::slice::from_ref(&other.name));
+    click(&mut harness, &words::snapshot(1, &name));
+    assert_eq!(names(&harness), [other.name, name]);
+    assert_eq!(window(&harness).project().texture().at.rough_smooth, 30.0);
+}
+
+/// A point that is drawn beside another one at its position does not jump when it is dragged.
+#[test]
+fn a_point_of_a_stack_is_dragged_from_its_position() {
+    let mut harness = author();
+    let before = window(&harness).project().texture().at;
+    take_of_menu(&mut harness, strings::POINT, words::DUPLICATE);
+    let from = harness.get_by_label(strings::POINT).rect().center();
+    drag(&mut harness, from, from + vec2(30.0, 0.0));
+    let moved = window(&harness).project().texture().at;
+    assert!(moved.rough_smooth > before.rough_smooth + 1.0, "{moved}");
+    assert!((moved.hard_soft - before.hard_soft).abs() < 0.5, "{moved} after {before}");
+}
+
+#[test]
+fn a_texture_that_is_deleted_in_its_details_is_named() {
+    let mut harness = author();
+    click(&mut harness, words::ADD);
+    let name = window(&harness).project().texture().name.clone();
+    click(&mut harness, words::DETAILS);
+    harness.run_steps(2);
+    let duplicate = harness.get_by_label(words::DUPLICATE).rect();
+    assert!(harness.get_by_label(words::DELETE).rect().left() > duplicate.right() + 20.0, "apart");
+    click(&mut harness, words::DELETE);
+    assert!(names(&harness).len() == 1 && says(&harness, &words::deleted(&name, "")));
+}
+
 /// Keys and buttons play A and B under the same stroke. A blind comparison shows nothing that identifies the texture.
 #[test]
 fn two_textures_are_compared() {
@@ -183,7 +231,9 @@ fn two_textures_are_compared() {
     assert!(!says(&harness, "dB re 1 m/s²"), "nor its level");
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     click(&mut harness, &compare::x_is("A"));
-    assert!(says(&harness, " of 1 correct, p = "));
+    assert!(says(&harness, " of 1 correct: may be guessing (p = "));
+    key(&mut harness, Modifiers::NONE, Key::Escape);
+    assert!(!says(&harness, compare::HIDDEN) && heard(&harness) == second, "Escape ends it");
     click(&mut harness, compare::BLIND);
     click(&mut harness, &compare::hear("A"));
     assert!(window(&harness).session().authored().is_none(), "nobody sees which it is");

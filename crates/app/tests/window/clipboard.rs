@@ -116,6 +116,9 @@ fn the_last_texture_is_copied_but_not_cut() {
     assert_eq!(names(&harness).len(), 1);
     assert!(says(&harness, clipboard::CANNOT_CUT));
     click(&mut harness, words::ADD);
+    // The text field of its name would be cut from.
+    harness.get_by_label(strings::POINT).focus();
+    harness.run_steps(2);
     let text = send(&mut harness, Event::Cut).expect("the selected texture");
     assert_eq!(names(&harness), ["New texture"]);
     send(&mut harness, Event::Paste(text));

@@ -1,14 +1,18 @@
 //! The devices sheet.
 
 use egui::accesskit::Role;
-use egui::{Key, Modifiers};
+use egui::{Event, Key, Modifiers, Shape};
 use egui_kittest::kittest::Queryable as _;
 use shagreen_app::state::rig::{Mounted, Rig};
-use shagreen_app::strings::devices as strings;
+use shagreen_app::strings::{clipboard, devices as strings};
 use shagreen_core::actuator::Actuator;
 use shagreen_formats::actuator_toml::{built_in_actuators, write_actuator};
+use shagreen_studio::project::new_project;
 
-use crate::support::{Author, author, choose, click, says, unnamed_controls, wait, window};
+use crate::frame::painted;
+use crate::support::{
+    Author, author, author_of, begin, choose, click, says, shown, unnamed_controls, wait, window,
+};
 
 fn opened() -> Author {
     let mut harness = author();
@@ -115,6 +119,47 @@ fn a_tone_plays_and_ends() {
     wait(&mut harness, "it can be stopped", |h| h.query_by_label(strings::STOP_TONE).is_some());
     click(&mut harness, strings::STOP_TONE);
     wait(&mut harness, "the tone ends", |h| window(h).session().status().is_some_and(|s| !s.plays_signal));
+}
+
+/// How often the window says this.
+fn n_said(harness: &Author, words: &str) -> usize {
+    shown(harness).iter().filter(|text| text.contains(words)).count()
+}
+
+/// What the status bar says is repeated only if it is about the output.
+#[test]
+fn the_sheet_repeats_no_message_about_anything_else() {
+    let mut harness = author();
+    harness.event(Event::Cut);
+    harness.run_steps(3);
+    let in_bar = n_said(&harness, clipboard::CANNOT_CUT);
+    assert!(in_bar > 0);
+    click(&mut harness, strings::OPEN);
+    wait(&mut harness, "the sheet opens", |h| says(h, strings::TITLE));
+    assert_eq!(n_said(&harness, clipboard::CANNOT_CUT), in_bar);
+    choose(&mut harness, strings::ACTUATOR, "Haptuator MM1C");
+    wait(&mut harness, "the sheet says it, too", |h| {
+        window(h).session().output_message().is_some_and(|message| n_said(h, message) > in_bar)
+    });
+}
+
+/// In a small window, a message takes the place of the figures of the output, and all of it can be read.
+#[test]
+fn a_message_has_room_in_a_small_window() {
+    const LEVEL: &str = "dB re 1 m/s²";
+    for (size, has_figures) in [([960.0, 600.0], false), ([1920.0, 1080.0], true)] {
+        let mut harness = author_of(begin(new_project()), size);
+        harness.run_steps(2);
+        assert!(says(&harness, LEVEL), "{size:?}");
+        harness.event(Event::Cut);
+        harness.run_steps(3);
+        assert_eq!(says(&harness, LEVEL), has_figures, "{size:?}");
+        let is_whole = |shape: &Shape| match shape {
+            Shape::Text(text) => text.galley.text() == clipboard::CANNOT_CUT && !text.galley.elided,
+            _ => false,
+        };
+        assert!(painted(&harness).iter().any(|painted| is_whole(&painted.shape)), "{size:?}");
+    }
 }
 
 #[test]

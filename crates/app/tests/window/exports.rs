@@ -7,8 +7,13 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, pos2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::choices::signals::{Slot, View};
+use shagreen_app::command::Command;
+use shagreen_app::state::edit::{Edit, PathChange};
 use shagreen_app::strings::{authored, document, export, import, signal, signals};
+use shagreen_core::space::SpacePoint;
+use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::texture::blend::Mode;
+use shagreen_core::texture::shape::ShapeControl;
 use shagreen_formats::wav::SidecarV1;
 use shagreen_studio::export::{FORMATS, WAV};
 
@@ -17,6 +22,7 @@ use crate::support::{
     Author, author, choose_mode, click, drag, enter_path, says, unnamed_controls, wait, wait_for_field,
     window, write_into,
 };
+use crate::views::carry_out;
 
 #[test]
 fn all_authored_textures_are_exported_at_once() {
@@ -204,4 +210,52 @@ fn an_exported_signal_counts_as_saved() {
     drag(&mut harness, at(0.35), at(0.55));
     menu(&mut harness, document::QUIT);
     assert!(says(&harness, document::LEAVE_PAINTING));
+}
+
+/// Samples of a WAV file of 32-bit floats, and the acceleration at full scale in its sidecar.
+fn exported(path: &Path) -> (Vec<f32>, f64) {
+    let bytes = std::fs::read(path).unwrap();
+    let sidecar: SidecarV1 =
+        serde_json::from_slice(&std::fs::read(path.with_extension("json")).unwrap()).unwrap();
+    let (_, samples) = bytes.split_at(bytes.len() - 4 * 240_000);
+    let samples = samples.as_chunks::<4>().0.iter().map(|bytes| f32::from_le_bytes(*bytes));
+    (samples.collect(), sidecar.full_scale)
+}
+
+/// All textures are written at one scale, into a folder that is created. What the files lack is listed: a path, and the levels
+/// if each file has a scale of its own.
+#[test]
+fn textures_that_are_exported_together_keep_their_levels() {
+    let parent = tempfile::tempdir().unwrap();
+    let folder = parent.path().join("new folder");
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    rename(&mut harness, "loud");
+    carry_out(&mut harness, Command::DuplicateTexture);
+    rename(&mut harness, "quiet");
+    carry_out(&mut harness, Command::Edit(Edit::SetShape(ShapeControl::Level, -12.0)));
+    let points = [30.0, 60.0].map(|rough_smooth| SpacePoint::new(rough_smooth, 50.0).unwrap());
+    let path = UserPath { points: points.to_vec(), ..UserPath::default() };
+    carry_out(&mut harness, Command::Edit(Edit::ChangePath(PathChange::Draw, Some(path))));
+    wait_for_field(&mut harness);
+    menu(&mut harness, export::EXPORT);
+    harness.run_steps(4);
+    wait(&mut harness, "the path is named", |h| says(h, &export::lost(export::PATH_LOST)));
+    click(&mut harness, &export::all_of(2));
+    wait(&mut harness, "it is named", |h| says(h, &export::lost(&export::paths_lost(&["quiet"]))));
+    click(&mut harness, signal::ONE_SCALE);
+    wait(&mut harness, "the levels are named", |h| says(h, &export::lost(export::LEVELS_LOST)));
+    click(&mut harness, signal::ONE_SCALE);
+    wait(&mut harness, "they are stored", |h| !says(h, export::LEVELS_LOST));
+    enter_path(&mut harness, export::PATH, &folder);
+    let saved = export::saved_all(2, &folder.display().to_string());
+    wait(&mut harness, "they are exported", |h| h.query_by_label(&saved).is_some());
+    let [loud, quiet] = ["loud", "quiet"].map(|name| exported(&folder.join(name).with_extension("wav")));
+    assert_eq!(loud.1, quiet.1, "one scale");
+    let peak = |samples: &[f32]| samples.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
+    assert!((peak(&loud.0) - 0.891).abs() < 1e-3, "{}", peak(&loud.0));
+    // The same noise, 12 dB weaker.
+    let ratio = f64::from(peak(&quiet.0) / peak(&loud.0));
+    assert!((ratio - 10_f64.powf(-0.6)).abs() < 1e-3, "{ratio}");
+    click(&mut harness, import::CLOSE);
 }

@@ -58,6 +58,37 @@ fn a_file_is_taken_for_what_it_is_however_it_comes() {
     wait(&mut harness, "it is imported", |h| window(h).import().is_some());
 }
 
+/// Each photo of a folder becomes a texture, whatever else lies in the folder. A folder without any file of use is reported.
+#[test]
+fn a_folder_of_photos_is_imported() {
+    let folder = tempfile::tempdir().unwrap();
+    let library = starter_library().unwrap();
+    for id in ["brick", "cork"] {
+        let texture = &library.textures[library.index_of(id).unwrap()];
+        let Rgb { width, height, pixels } = decode(texture.picture.as_ref().unwrap()).unwrap();
+        let photo = encode_png(&Rgb { width, height, pixels }).unwrap();
+        std::fs::write(folder.path().join(format!("my {id}.png")), photo).unwrap();
+    }
+    std::fs::write(folder.path().join("README.md"), "# Photos").unwrap();
+    let empty = folder.path().join("empty");
+    std::fs::create_dir(&empty).unwrap();
+    let mut harness = author();
+    carry_out(&mut harness, Command::OpenImport);
+    enter_path(&mut harness, import_words::PATHS, &empty);
+    wait(&mut harness, "it is reported", |h| {
+        shown(h).iter().any(|text| text.contains("has no file that can be imported"))
+    });
+    carry_out(&mut harness, Command::CloseSheet);
+    harness.run_steps(4);
+    carry_out(&mut harness, Command::OpenImport);
+    enter_path(&mut harness, import_words::PATHS, folder.path());
+    wait(&mut harness, "both landed", |h| window(h).project().authored.len() == 3);
+    let mut names: Vec<&str> =
+        window(&harness).project().authored[1..].iter().map(|texture| texture.name.as_str()).collect();
+    names.sort_unstable();
+    assert_eq!(names, ["my brick", "my cork"]);
+}
+
 /// Neither a long name of the project nor a signal in A moves a button.
 #[test]
 fn buttons_stay_where_they_are() {

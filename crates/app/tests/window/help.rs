@@ -1,6 +1,6 @@
 //! Help: the command palette, the guide, and exports listed in the palette.
 
-use egui::{Key, Modifiers};
+use egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use shagreen_app::strings::{export, help, import};
 use shagreen_app::workspace::Workspace;
@@ -35,6 +35,31 @@ fn the_palette_finds_a_command_by_its_words_and_runs_it() {
     harness.key_press(Key::Escape);
     harness.run_steps(3);
     assert!(harness.query_by_label(help::FIND_COMMAND).is_none());
+}
+
+/// Fast typing brings letters and *Enter* in one frame. Before, *Enter* ran the first command of the whole list, which
+/// replaces the project by a new one.
+#[test]
+fn enter_runs_what_the_letters_typed_with_it_find() {
+    let mut harness = author();
+    let enter = Event::Key {
+        key: Key::Enter,
+        physical_key: None,
+        pressed: true,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    open_palette(&mut harness);
+    harness.input_mut().events.extend([Event::Text("build show".to_owned()), enter.clone()]);
+    harness.run_steps(3);
+    assert_eq!(window(&harness).workspace(), Workspace::Build);
+    assert!(harness.query_by_label(help::FIND_COMMAND).is_none());
+    // Without letters and arrows, it runs nothing.
+    open_palette(&mut harness);
+    harness.input_mut().events.push(enter);
+    harness.run_steps(3);
+    assert!(harness.query_by_label(help::FIND_COMMAND).is_some());
+    assert_eq!(window(&harness).workspace(), Workspace::Build);
 }
 
 /// The palette closes before the command opens another sheet.

@@ -6,6 +6,7 @@ use std::path::Path;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
+use shagreen_app::command::Command;
 use shagreen_app::strings::{self, import};
 use shagreen_core::space::LabelSource;
 use shagreen_core::texture::blend::Mode;
@@ -15,7 +16,10 @@ use shagreen_core::units::{Contact, Hertz};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::starter::starter_library;
 
-use crate::support::{Author, author, choose, click, drop_files, solo, unnamed_controls, wait, window};
+use crate::support::{
+    Author, author, choose, click, drop_files, enter_path, says, solo, unnamed_controls, wait, window,
+};
+use crate::views::carry_out;
 
 fn names(harness: &Author) -> Vec<String> {
     window(harness).session().textures().iter().map(|texture| texture.name.clone()).collect()
@@ -165,6 +169,26 @@ fn a_file_that_cannot_be_used_says_why_and_nothing_is_lost() {
     assert!(window(&harness).import().is_none());
     assert_eq!(names(&harness), before);
     assert!(harness.get_by_label(strings::UNDO).accesskit_node().is_disabled());
+}
+
+/// A file of another kind is not to be corrected, and a project is known.
+#[test]
+fn a_file_of_another_kind_gets_no_advice_for_recordings() {
+    let mut harness = author();
+    for (name, bytes, said) in [
+        ("README.md", b"a,b\n1,2\n3,4,5\n".as_slice(), "Files of this kind cannot be imported"),
+        ("woods.shagreen", b"{}".as_slice(), "This is a project of Shagreen"),
+    ] {
+        // A dropped project is opened. One in a folder, or whose path is typed, is read.
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        carry_out(&mut harness, Command::OpenImport);
+        enter_path(&mut harness, import::PATHS, &path);
+        wait(&mut harness, "the reason is shown", |h| says(h, said));
+        assert!(!says(&harness, "correct the file") && says(&harness, import::ACCEPTED));
+        carry_out(&mut harness, Command::CloseSheet);
+    }
 }
 
 /// Textures of a dropped library are added. They keep their positions, because these have the same source.

@@ -43,7 +43,7 @@ fn names(harness: &Author) -> Vec<String> {
     names.extend(window.session().textures().iter().map(|texture| texture.tags.join(", ")));
     names.extend(window.project().authored.iter().map(|texture| texture.name.clone()));
     // The status bar shows the complete message under the pointer.
-    names.extend(window.session().output_message().map(str::to_owned));
+    names.extend(window.session().messages().map(str::to_owned));
     names.extend(Slot::ALL.iter().filter_map(|slot| window.signals().signal(*slot)).map(|s| s.name.clone()));
     names
 }

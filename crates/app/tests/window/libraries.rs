@@ -1,7 +1,7 @@
 //! Opening another library: its positions state their source, and nothing is lost.
 
 use egui::accesskit::Role;
-use egui::{Key, Modifiers};
+use egui::{Key, Modifiers, Rect, Shape};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::strings;
 use shagreen_app::workspace::Workspace;
@@ -13,7 +13,7 @@ use shagreen_studio::library_names::built_in_name;
 
 use crate::support::{
     Author, author, author_on, choose_mode, click, drop_files, painted, says, shown, unnamed_controls, wait,
-    window, words,
+    wait_for_field, window, words,
 };
 
 const NOBODY: &str = "Positions: simulated raters, no human data";
@@ -136,6 +136,34 @@ fn every_texture_of_both_libraries_has_its_name_on_the_canvas() {
             .filter(|name| !names.iter().any(|n| n == name))
             .collect();
         assert!(nameless.is_empty(), "{nameless:?} in {}", built_in_name(built_in));
+    }
+}
+
+/// On a small canvas, no name lies partly below another one or below the authored point.
+#[test]
+fn a_name_is_shown_whole_or_not_at_all() {
+    let mut harness = author_on(BuiltIn::Starter.read().unwrap(), [960.0, 600.0]);
+    wait_for_field(&mut harness);
+    harness.remove_cursor();
+    for rough_smooth in [30.0, 50.0, 62.0] {
+        harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(rough_smooth);
+        harness.run_steps(4);
+        let textures = window(&harness).session().textures();
+        let is_name = |text: &str| textures.iter().any(|texture| texture.name == text);
+        let area = |shape: &Shape| match shape {
+            Shape::Text(text) if is_name(text.galley.text()) => Some(text.visual_bounding_rect().shrink(2.0)),
+            _ => None,
+        };
+        let names: Vec<Rect> = painted(&harness, strings::CANVAS).iter().filter_map(area).collect();
+        assert!(names.len() > 10, "{} names at {rough_smooth}", names.len());
+        let point = harness.get_by_role_and_label(Role::Slider, strings::POINT).rect().shrink(4.0);
+        for (i, name) in names.iter().enumerate() {
+            assert!(!name.intersects(point), "{name:?} at {rough_smooth}");
+            assert!(
+                !names[i + 1..].iter().any(|other| other.intersects(*name)),
+                "{name:?} at {rough_smooth}"
+            );
+        }
     }
 }
 

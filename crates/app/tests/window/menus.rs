@@ -10,7 +10,8 @@ use shagreen_core::texture::blend::Mode;
 use shagreen_formats::built_in::BuiltIn;
 
 use crate::support::{
-    self, Author, author, author_on, click, drag, is_locked, solo, unnamed_controls, wait_for_field, window,
+    self, Author, author, author_on, click, double_click, drag, is_locked, solo, unnamed_controls,
+    wait_for_field, window,
 };
 
 const SIZE: [f32; 2] = [1280.0, 720.0];
@@ -109,9 +110,46 @@ fn a_menu_renames_the_texture_that_it_belongs_to() {
     harness.run_steps(2);
     assert_eq!(window(&harness).project().selected, 0);
     assert!(harness.get_by_role_and_label(Role::TextInput, strings::NAME).is_focused());
-    harness.get_by_role_and_label(Role::TextInput, strings::NAME).type_text(" of oak");
+    harness.get_by_role_and_label(Role::TextInput, strings::NAME).type_text("Oak");
     harness.run_steps(2);
-    assert!(names(&harness)[0].contains(" of oak"), "{:?}", names(&harness));
+    assert_eq!(names(&harness), ["Oak", "New texture 2"], "typing replaces the name");
+}
+
+#[test]
+fn a_new_texture_and_the_key_f2_select_the_name_so_that_typing_replaces_it() {
+    let mut harness = author();
+    click(&mut harness, words::ADD);
+    harness.run_steps(2);
+    harness.get_by_role_and_label(Role::TextInput, strings::NAME).type_text("Elm");
+    harness.run_steps(2);
+    assert_eq!(names(&harness), ["New texture", "Elm"]);
+    harness.get_by_label(strings::POINT).focus();
+    harness.run_steps(3);
+    key(&mut harness, Modifiers::NONE, Key::F2);
+    harness.get_by_role_and_label(Role::TextInput, strings::NAME).type_text("Oak");
+    harness.run_steps(2);
+    assert_eq!(names(&harness), ["New texture", "Oak"]);
+}
+
+/// Enter keeps the name that was typed in the row, and Escape restores the one before.
+#[test]
+fn a_double_click_on_a_row_renames_the_texture_there() {
+    let mut harness = author();
+    click(&mut harness, words::ADD);
+    for (left_by, expected) in [(Key::Enter, "Oak"), (Key::Escape, "Oak")] {
+        let row = harness.get_by_label(&words::select(&names(&harness)[0])).rect().center();
+        double_click(&mut harness, row);
+        assert_eq!(window(&harness).project().selected, 0);
+        let field = harness.get_by_role_and_label(Role::TextInput, words::ROW_NAME);
+        assert!(field.is_focused());
+        field.type_text(if left_by == Key::Enter { "Oak" } else { "Elm" });
+        harness.run_steps(2);
+        key(&mut harness, Modifiers::NONE, left_by);
+        assert_eq!(names(&harness), [expected, "New texture 2"]);
+        assert!(harness.query_by_role_and_label(Role::TextInput, words::ROW_NAME).is_none());
+        // The next click is no third one of this double click.
+        harness.run_steps(60);
+    }
 }
 
 /// The right button opens the menu of the pad and strokes nothing.

@@ -168,6 +168,22 @@ fn the_texture_follows_the_path() {
     assert!(window(&harness).session().authored().unwrap().location.at.distance(point) < 1e-9);
 }
 
+/// A stroke while the path tool is on is meant for the path.
+#[test]
+fn a_stroke_follows_the_path_that_was_just_drawn() {
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    draw_in_time(&mut harness, 1.5);
+    click(&mut harness, strings::HAND_START);
+    assert!(window(&harness).session().is_path_playing());
+    // The point plays again when that is asked for, and without the tool.
+    click(&mut harness, path::STOP);
+    click(&mut harness, strings::HAND_STOP);
+    click(&mut harness, path::PATH);
+    click(&mut harness, strings::HAND_START);
+    assert!(!window(&harness).session().is_path_playing());
+}
+
 /// Adding a path creates a texture of the list that contains the path.
 #[test]
 fn a_path_is_kept_as_a_texture() {

@@ -274,7 +274,7 @@ fn work_survives_a_crash() {
     std::fs::rename(at("crashed"), at("recovery")).unwrap();
 
     let mut harness = author_of(kept(), SIZE);
-    assert!(says(&harness, document::RECOVERED_TITLE));
+    assert!(says(&harness, document::RECOVERED_TITLE) && says(&harness, document::RECOVERED_HELP));
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     click(&mut harness, &document::about(document::RECOVER, document::UNTITLED));
     harness.run_steps(3);

@@ -104,6 +104,9 @@ fn a_generated_texture_is_its_picture_once_it_is_simulated() {
     assert!((n_ridges - n_ridges.round()).abs() < 1e-9, "{n_ridges}");
     assert!((1e3 * map.side_m() - simulated.picture.as_ref().unwrap().millimeters).abs() < 1e-9);
     assert!(says(&harness, words::SIMULATED));
+    // It is the authored texture, so there is nothing to choose or to leave.
+    assert!(!says(&harness, &strings::plays_alone(&simulated.name)));
+    assert!(harness.query_by_label(textures::BACK_NAME).is_none());
     // One step with the texture.
     click(&mut harness, strings::UNDO);
     let undone = window(&harness).project();
@@ -145,6 +148,27 @@ fn a_second_prompt_leaves_the_first_texture_as_it_is() {
     assert_eq!((window(&harness).project().own.len(), heard(&harness)), (2, before));
 }
 
+/// While another authored texture is selected, the list and the menu of the first one say where its own texture is, and offer it
+/// for the whole space.
+#[test]
+fn a_generated_texture_is_offered_for_the_whole_space_where_it_is_missing() {
+    let mut harness = author();
+    describe(&mut harness, "a rough, soft carpet-like surface");
+    let generated = window(&harness).project().texture().name.clone();
+    let others = window(&harness).project().authored[0].name.clone();
+    click(&mut harness, &authored::select(&others));
+    let row = harness.get_by_label(&authored::select(&generated)).rect().center();
+    harness.hover_at(row);
+    wait(&mut harness, "the tooltip says why", |h| says(h, textures::OWN_HELP));
+    harness.get_by_label(&authored::select(&generated)).click_secondary();
+    harness.run_steps(3);
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    click(&mut harness, textures::WHOLE_SPACE);
+    harness.run_steps(2);
+    assert!(window(&harness).project().own.is_empty());
+    assert!(harness.query_by_label(textures::WHOLE_SPACE).is_none(), "the menu closes");
+}
+
 #[test]
 fn a_simulation_that_is_stopped_leaves_the_interpolated_texture() {
     let mut harness = author();
@@ -179,10 +203,13 @@ fn words_that_say_nothing_are_answered_and_earlier_ones_come_back() {
     let again = window(&harness).project().texture();
     assert_eq!((again.at, &again.picture), (steel.at, &steel.picture), "the same words and seed");
     assert_eq!(again.name, "polished steel 2");
-    // An empty prompt is allowed and describes an arbitrary surface.
+    // An empty prompt is allowed and describes an arbitrary surface, but Enter alone means nothing.
     write_into(&mut harness, words::FIELD, "x");
     harness.key_press(Key::Backspace);
     harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(3);
+    assert!(!window(&harness).prompts().is_busy());
     click(&mut harness, words::MAKE);
     wait(&mut harness, "something was made", |h| window(h).project().authored.len() == 5);
     assert!(window(&harness).project().texture().name.starts_with(words::NOTHING_SAID));

@@ -248,6 +248,17 @@ fn a_drag_of_a_slider_is_one_step_and_is_heard() {
     assert_eq!(shape(&harness), Shape::default());
 }
 
+#[test]
+fn a_number_out_of_range_becomes_the_limit_and_the_range_is_said() {
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    open(&mut harness);
+    set(&mut harness, ShapeControl::Level, 99_999.0);
+    assert_eq!(shape(&harness).level_db, 12.0);
+    assert!(says(&harness, &words::limited(ShapeControl::Level)));
+    assert_eq!(words::limited(ShapeControl::Level), "Level: -24.0 dB to 12.0 dB");
+}
+
 /// Buttons make one control or all of them neutral; copies and snapshots keep the shape.
 #[test]
 fn a_shape_is_reset_and_copied() {

@@ -57,7 +57,7 @@ fn touch(harness: &Author) -> Touch {
 #[test]
 fn a_stroke_is_recorded_and_repeated_until_a_person_strokes() {
     let mut harness = author();
-    assert!(harness.query_by_role_and_label(Role::Slider, stroke::TEMPO).is_none());
+    assert!(harness.query_by_role_and_label(Role::SpinButton, stroke::TEMPO).is_none());
     click(&mut harness, stroke::RECORD);
     harness.run_steps(2);
     assert!(window(&harness).session().recording().is_some_and(|(samples, secs)| {
@@ -79,13 +79,13 @@ fn a_stroke_is_recorded_and_repeated_until_a_person_strokes() {
     let way_m = samples[samples.len() - 1].x_m - samples[0].x_m;
     assert!((way_m - 0.06).abs() < 0.003, "{way_m} m");
 
-    // The recording is selected at once, and the sliders scale its tempo and force.
+    // The recording is selected at once, and the numbers scale its tempo and force.
     assert!(says(&harness, stroke::RECORDED));
     for name in [stroke::TEMPO, stroke::FORCE] {
-        let slider = harness.get_by_role_and_label(Role::Slider, name);
-        assert_eq!(slider.accesskit_node().numeric_value(), Some(100.0));
+        let percent = harness.get_by_role_and_label(Role::SpinButton, name);
+        assert_eq!(percent.accesskit_node().numeric_value(), Some(100.0));
     }
-    assert!(harness.query_by_role_and_label(Role::Slider, strings::HAND_SPEED).is_none());
+    assert!(harness.query_by_role_and_label(Role::SpinButton, strings::HAND_SPEED).is_none());
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     click(&mut harness, strings::HAND_START);
     wait(&mut harness, "it sounds", |h| window(h).session().scope().rms(0.3) > 0.01);
@@ -95,7 +95,7 @@ fn a_stroke_is_recorded_and_repeated_until_a_person_strokes() {
         });
         wait(&mut harness, "it lifts before it begins again", |h| touch(h).contact.force_n == 0.0);
     }
-    harness.get_by_role_and_label(Role::Slider, stroke::FORCE).set_value_accesskit(50.0);
+    harness.get_by_role_and_label(Role::SpinButton, stroke::FORCE).set_value_accesskit(50.0);
     wait(&mut harness, "it presses half as hard", |h| (touch(h).contact.force_n - 0.4).abs() < 0.01);
 
     // A person takes over, and the automatic stroke continues afterwards.
@@ -112,7 +112,7 @@ fn a_stroke_is_recorded_and_repeated_until_a_person_strokes() {
 
     // Selecting another path gives an ordinary automatic stroke.
     choose(&mut harness, strings::HAND_PATH, strings::CIRCLE);
-    assert!(harness.query_by_role_and_label(Role::Slider, strings::HAND_SPEED).is_some());
+    assert!(harness.query_by_role_and_label(Role::SpinButton, strings::HAND_SPEED).is_some());
 }
 
 #[test]

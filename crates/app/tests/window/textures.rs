@@ -7,6 +7,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::choices::textures::{End, Region};
 use shagreen_app::look::theme::{LIBRARY_WIDTH, STAGE_HEIGHTS};
+use shagreen_app::state::edit::{Edit, edited};
 use shagreen_app::strings::edits::starred;
 use shagreen_app::strings::{self, import, textures as words};
 use shagreen_core::space::LabelSource;
@@ -298,4 +299,22 @@ fn five_textures_are_seen_beside_five_authored_ones() {
         let area = harness.get_by_label(button).rect();
         assert!(area.left() >= 0.0 && area.right() <= LIBRARY_WIDTH, "{button} at {area:?}");
     }
+}
+
+#[test]
+fn an_added_texture_gets_an_estimated_position() {
+    let mut entry = BuiltIn::Starter.read().unwrap().textures.swap_remove(0);
+    "mine".clone_into(&mut entry.id);
+    "Mine".clone_into(&mut entry.name);
+    (entry.place, entry.physical, entry.attributes) = (None, None, None);
+    let project = edited(&new_project(), Edit::AddTextures(vec![Arc::new(entry)]));
+    let mut harness = author_of(begin(project), SIZE);
+    let mine = window(&harness).session().textures().len() - 1;
+    assert_eq!(window(&harness).session().position(mine), None);
+    filter(&mut harness, 0, words::ONLY_JOINED);
+    take(&mut harness, "Mine", words::ESTIMATE_PLACE);
+    assert!(window(&harness).session().position(mine).is_some());
+    assert_eq!(window(&harness).session().place_source(mine), Some(LabelSource::Estimated));
+    click(&mut harness, strings::UNDO);
+    assert_eq!(window(&harness).session().position(mine), None);
 }

@@ -3,6 +3,10 @@
 //! The magnitude is `|A(f)|² = |X|² + |Y|² + |Z|²`: it preserves energy and does not depend on the sensor's
 //! orientation. The phase is `∠A = ∠(X + Y + Z)`, which does depend on the orientation.
 
+mod short_time;
+
+pub use crate::dsp::dft321::short_time::dft321_short_time;
+
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 

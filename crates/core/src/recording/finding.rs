@@ -233,7 +233,8 @@ impl fmt::Display for Finding {
                 "{column} repeats each value for {n_rows:.1} rows on average; its true sample rate seems to be {true_rate_hz:.0} Hz"
             ),
             Self::DeadAxis { column, value } => {
-                write!(f, "{column} is {value} in every row; this axis was ignored")
+                // Added, so that nothing reads "-0".
+                write!(f, "{column} is {} in every row; this axis was ignored", value + 0.0)
             }
             Self::NotANumber { column, at } => write!(f, "{column}, {at}; these rows were left out"),
             Self::Impossible { column, at, most, unit } => write!(
@@ -310,5 +311,18 @@ impl fmt::Display for Finding {
 
 /// Rounds to millionths, which removes rounding errors of unit conversions.
 pub(super) fn micro(value: f64) -> f64 {
-    (1e6 * value).round() * 1e-6
+    // Added, so that nothing reads "-0".
+    (1e6 * value).round() * 1e-6 + 0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Finding, micro};
+
+    #[test]
+    fn zero_has_no_sign() {
+        let text = Finding::DeadAxis { column: "ax".to_owned(), value: -0.0 }.to_string();
+        assert!(text.contains("ax is 0 in every row"), "{text}");
+        assert_eq!(micro(-1e-9).to_string(), "0");
+    }
 }

@@ -109,7 +109,8 @@ pub struct Comparison {
     pub model_psd: Vec<f64>,
     /// Goodness of fit (GFC) of the two spectra, 0 to 1.
     pub gfc: f64,
-    /// Ratio of the model's level to the measured level of the same segments, in dB.
+    /// Ratio of the model's level to the measured level of the pooled segments, in dB. Two segments have the same value if
+    /// the same segments are pooled for both.
     pub level_error_db: f64,
 }
 
@@ -229,7 +230,8 @@ fn hull_share(points: &[[f64; 2]]) -> f64 {
         let [a, b, c] = corners.map(|i| triangulation.points()[i]);
         0.5 * ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])).abs()
     };
-    triangulation.triangles().map(area).sum()
+    // Added, because the sum of no triangles is -0, which would read "-0 %".
+    triangulation.triangles().map(area).sum::<f64>() + 0.0
 }
 
 #[cfg(test)]

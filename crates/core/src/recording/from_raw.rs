@@ -2,7 +2,7 @@
 
 use std::slice::from_mut;
 
-use crate::dsp::dft321::dft321;
+use crate::dsp::dft321::dft321_short_time;
 use crate::recording::axis::Axis;
 use crate::recording::bounds::{ACCELERATION, FORCE, POSITION, SPEED};
 use crate::recording::clock::{Count, Timeline, read_clock};
@@ -179,7 +179,7 @@ impl Columns {
                 axes.iter().map(|axis| fast(&axis.values, &timeline, stretch)).collect();
             let axes: Vec<&[f64]> = axes.iter().map(Vec::as_slice).collect();
             // All axes are cut to the same segment, so they have the same length.
-            if let Ok(combined) = dft321(&axes) {
+            if let Ok(combined) = dft321_short_time(&axes, recording.rate) {
                 recording.acceleration_mps2[at.clone()].copy_from_slice(&combined);
             }
             recording.speed_mps[at.clone()].copy_from_slice(&speed_of(&motion, &timeline, stretch));

@@ -80,7 +80,8 @@ mod tests {
         // On a regular clock, the combined signal has the energy of the axes.
         let energy = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>();
         let of_axes: f64 = recording.axes_mps2().iter().map(|axis| energy(axis)).sum();
-        assert!((energy(&combined.acceleration_mps2) / of_axes - 1.0).abs() < 1e-12);
+        // Energy is restored above 10 Hz.
+        assert!((energy(&combined.acceleration_mps2) / of_axes - 1.0).abs() < 0.005);
     }
 
     #[test]

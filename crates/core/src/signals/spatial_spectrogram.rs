@@ -229,6 +229,9 @@ impl Spectra {
 }
 
 /// A spatial spectrogram `S = |Σ w f e^(-2πikn/N)|²` by window and frequency, in the squared unit of the profile.
+///
+/// A profile with negative values is raised by [`SpatialSpectrogram::offset`] first, which changes the power near DC;
+/// [`Transform::power`] is that of the profile as it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpatialSpectrogram {
     power: Frames<f64>,
@@ -242,7 +245,7 @@ impl SpatialSpectrogram {
     /// # Errors
     /// [`FramingError`] for a sample that is not finite, or a length that does not fit the framing.
     pub fn of(profile: &[f64], transform: &Transform) -> Result<Self, FramingError> {
-        let offset = profile.iter().fold(0.0_f64, |offset, x| offset.max(-x));
+        let offset = offset_of(profile);
         let power = transform.power(&lifted(profile, offset))?;
         Ok(Self { power, offset })
     }
@@ -256,6 +259,12 @@ impl SpatialSpectrogram {
     pub fn offset(&self) -> f64 {
         self.offset
     }
+}
+
+/// Returns the offset that a profile needs before it is reconstructed from its power: minus the lowest value, or 0 if no
+/// value is negative.
+pub fn offset_of(profile: &[f64]) -> f64 {
+    profile.iter().fold(0.0_f64, |offset, x| offset.max(-x))
 }
 
 /// Returns the profile plus an offset.

@@ -106,6 +106,8 @@ pub struct SignalCheck {
     pub seconds: f64,
     /// Mean spectral distance between the signals of interpolated and original texture, in dB.
     pub error_db_mean: f64,
+    /// Mean spectral distance between the models of the same textures, in dB.
+    pub model_error_db_mean: f64,
     /// Mean over textures of the absolute difference between signal distance and model distance, in dB.
     pub mean_difference_db: f64,
     /// Largest of these differences, in dB.

@@ -55,7 +55,7 @@ pub use crate::space::space_build::scaling::DegenerateScaling;
 pub use crate::space::space_build::stability::{MIN_DRAWN, Stability};
 pub use crate::space::space_build::step::Step;
 pub use crate::space::space_build::validation::{
-    kruskal_word, position_errors, stress_in_words, stress_of_random_data, validation_summary,
+    few_judges, kruskal_word, position_errors, stress_in_words, stress_of_random_data, validation_summary,
 };
 
 use crate::space::space_build::rated::from_ratings;

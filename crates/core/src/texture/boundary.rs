@@ -1,7 +1,8 @@
 //! Boundary nodes that close the speed-force range around measured nodes.
 //!
 //! They are silent at zero speed or zero force. At the highest speed and at the highest force they copy a measured
-//! model, for faster or stronger strokes than the measured ones.
+//! model, for faster or stronger strokes than the measured ones. This is the rule for files of the published format; the
+//! plane of a measured texture ([`crate::texture::plane`]) has other values at these places.
 //!
 //! The rule and its spacings are from H. Culbertson, J. Unwin and K. Kuchenbecker, "Modeling and rendering realistic
 //! textures from unconstrained tool-surface interactions" (2014).

@@ -1,6 +1,8 @@
 //! Speed-force plane of a texture: measured nodes, the boundary around them, and the interpolation between.
 
+mod closed;
 mod fade;
+mod hull_edges;
 mod prepared;
 mod radial;
 mod refined;
@@ -16,22 +18,24 @@ pub use crate::texture::plane::prepared::Prepared;
 use crate::dsp::arma;
 use crate::dsp::lsf::ar_from_lsf;
 use crate::maths::triangulation::{Triangulation, Xy};
-use crate::texture::boundary::{BoundaryModel, boundary};
 use crate::texture::height_map::HeightMap;
+use crate::texture::plane::closed::closed;
 use crate::texture::plane::fade::fading;
+use crate::texture::plane::hull_edges::HullEdges;
 use crate::texture::plane::radial::RadialGrain;
 use crate::texture::plane::values::{Strength, Values};
 use crate::texture::relief::Relief;
 use crate::texture::stick_slip::friction;
-use crate::texture::{self, GrainNode, Interpolation, MIN_NODE_DISTANCE, PublishedNode, TextureModel};
+use crate::texture::{self, Interpolation, MIN_NODE_DISTANCE, PublishedNode, TextureModel};
 use crate::units::{Contact, Hertz, Radians};
 
 /// Grain of a texture at any contact.
 ///
 /// Measured nodes are interpolated in one of two ways.
 /// - Barycentric, in the Delaunay triangles over speed and force, each divided by its maximum. Silent nodes at zero
-///   speed or force, and copies of measured nodes along the edges of highest speed and force, close the range
-///   ([`crate::texture::boundary`]). Between the axes and the lowest measured speeds and forces, the level fades to zero.
+///   speed or force, and the values of the nearest measured nodes along the edges of highest speed and force, close the
+///   range ([`crate::texture::boundary`]). Inside the convex hull of the measured nodes, these are interpolated.
+///   Between the axes and the lowest measured speeds and forces, the level fades to zero.
 /// - By radial basis functions, constant beyond the measured range. Below the lowest measured speed or force, the level
 ///   decreases linearly to zero at zero speed or force.
 ///
@@ -163,6 +167,16 @@ impl Plane {
                 points.extend(fading);
                 triangulation = triangulated(&points, false);
             }
+            let mut hull_edges = HullEdges::new(&points, texture.n_nodes());
+            // Every round halves edges, down to a shortest length, so that the loop ends.
+            loop {
+                let added = hull_edges.bisect(&points, &triangulation);
+                if added.is_empty() {
+                    break;
+                }
+                points.extend(added);
+                triangulation = triangulated(&points, false);
+            }
         }
         let vertices = points.into_iter().map(|(_, values)| values).collect();
         let contacts = texture.contacts().map(|c| [c.speed.0, c.force.0]);
@@ -282,19 +296,6 @@ impl Plane {
         };
         Values::mean(&parts.map(|(vertex, weight)| (&self.vertices[vertex], weight)))
     }
-}
-
-/// Measured nodes and the boundary around them.
-fn closed(nodes: &[GrainNode], places: &[Xy], highest: Contact) -> Vec<(Xy, Values)> {
-    let measured = nodes.iter().map(|n| Values::measured(n.lsf.clone(), n.level_mps2));
-    let mut points: Vec<(Xy, Values)> = places.iter().copied().zip(measured).collect();
-    let contacts: Vec<Contact> = nodes.iter().map(|n| Contact { speed: n.speed, force: n.force }).collect();
-    for BoundaryModel { at, copy_of, silent } in boundary(&contacts, highest) {
-        let node = &nodes[copy_of];
-        let place = [at.speed.0 / highest.speed.0, at.force.0 / highest.force.0];
-        points.push((place, Values::measured(node.lsf.clone(), if silent { 0.0 } else { node.level_mps2 })));
-    }
-    points
 }
 
 /// Triangles over nodes in their order, or over the corners of a radial basis.

@@ -12,7 +12,8 @@
 //! ```
 //!
 //! `texture` is an authored texture in the project format. `library` and `axes` name the space in which its position was
-//! chosen, and `pinned` names its pinned textures, so that another project can say what it lacks.
+//! chosen, and `pinned` names its pinned textures, so that another project can say what it lacks. `textures`, if there are any,
+//! are those of the pinned textures that were added to its project, in the format of a library: no other library has them.
 
 use std::collections::BTreeMap;
 
@@ -20,6 +21,10 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::layout;
+use crate::library::TextureEntry;
+use crate::library::read::texture as texture_entry;
+use crate::library::v1::TextureV1;
+use crate::library::write::texture as texture_wire;
 use crate::own_json::{HeaderFault, check_density};
 use crate::parser_words::plain;
 use crate::project::read::authored_texture;
@@ -48,6 +53,8 @@ pub struct CopiedTexture {
     pub axes: [[String; 2]; 2],
     /// Names of its pinned textures, by identifier.
     pub pinned: BTreeMap<String, String>,
+    /// The pinned textures that were added to its project.
+    pub textures: Vec<TextureEntry>,
 }
 
 /// Why a text is not a copied authored texture.
@@ -97,6 +104,8 @@ struct CopiedV1 {
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pinned: BTreeMap<String, String>,
     texture: AuthoredV1,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    textures: Vec<TextureV1>,
 }
 
 /// The fields that identify the text.
@@ -108,8 +117,13 @@ struct Mark {
     version: Value,
 }
 
-/// Serializes a copied texture as JSON.
+/// Serializes a copied texture as JSON; without its added textures if the text would be too long to be read again.
 pub fn write_copied_texture(copied: &CopiedTexture) -> String {
+    let text = written(copied, &copied.textures);
+    if text.len() > MAX_BYTES { written(copied, &[]) } else { text }
+}
+
+fn written(copied: &CopiedTexture, textures: &[TextureEntry]) -> String {
     let wire = CopiedV1 {
         shagreen: KIND.to_owned(),
         version: VERSION,
@@ -117,6 +131,7 @@ pub fn write_copied_texture(copied: &CopiedTexture) -> String {
         axes: copied.axes.clone(),
         pinned: copied.pinned.clone(),
         texture: authored(&copied.texture),
+        textures: textures.iter().map(texture_wire).collect(),
     };
     // JSON is UTF-8, so nothing is lost.
     String::from_utf8_lossy(&layout::to_bytes(&wire, OPEN_DEPTH)).into_owned()
@@ -168,7 +183,9 @@ fn checked(wire: CopiedV1) -> Result<CopiedTexture, ProjectError> {
     for name in wire.pinned.values() {
         text_limits::check("the name of a pinned texture", name, MAX_NAME)?;
     }
+    let entry = |wire| texture_entry(wire).map_err(|source| ProjectError::Library { path: None, source });
     Ok(CopiedTexture {
+        textures: wire.textures.into_iter().map(entry).collect::<Result<_, _>>()?,
         texture: authored_texture(wire.texture)?,
         library: wire.library,
         axes: wire.axes,
@@ -187,6 +204,7 @@ mod tests {
 
     use super::{CopiedTexture, CopiedTextureError, MAX_BYTES, read_copied_texture, write_copied_texture};
     use crate::project::{AuthoredTexture, BlendChoice};
+    use crate::starter::starter_library;
 
     fn copied() -> CopiedTexture {
         let locked = BTreeSet::from(["oak".to_owned()]);
@@ -203,6 +221,7 @@ mod tests {
             library: "Starter library".to_owned(),
             axes: [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned)),
             pinned: BTreeMap::from([("oak".to_owned(), "Oak".to_owned())]),
+            textures: Vec::new(),
         }
     }
 
@@ -219,6 +238,23 @@ mod tests {
         assert!(text.starts_with("{\n \"shagreen\": \"authored texture\",\n \"version\": 1,"), "{text}");
         assert_eq!(read_copied_texture(&text).unwrap(), copied());
         assert_eq!(changed(|_| {}).unwrap(), copied(), "whatever the layout");
+    }
+
+    #[test]
+    fn added_textures_travel_unless_the_text_would_be_too_long() {
+        let starter = starter_library().unwrap();
+        let with = |n: usize| CopiedTexture {
+            textures: starter.textures.iter().cycle().take(n).cloned().collect(),
+            ..copied()
+        };
+        assert_eq!(read_copied_texture(&write_copied_texture(&with(2))).unwrap(), with(2));
+        let one = write_copied_texture(&with(1)).len();
+        let many = with(3 * MAX_BYTES / one);
+        assert_eq!(read_copied_texture(&write_copied_texture(&many)).unwrap(), copied());
+        let mut value: Value = serde_json::from_str(&write_copied_texture(&with(1))).unwrap();
+        value["textures"][0]["space"]["rough_smooth"] = json!(101.0);
+        let error = read_copied_texture(&value.to_string()).unwrap_err();
+        assert!(matches!(error, CopiedTextureError::Invalid { .. }), "{error}");
     }
 
     #[test]

@@ -9,7 +9,7 @@ use shagreen_core::units::Hertz;
 use crate::recording::column_map::{Column, ColumnMap};
 use crate::recording::infer_units::{goes_on, likely_time_unit, other_time_unit, rate_of};
 use crate::recording::map_builder::MapBuilder;
-use crate::recording::names::{Meaning, meaning_of};
+use crate::recording::names::{Meaning, meaning_of, time_unit_in};
 use crate::recording::question::Ask;
 use crate::recording::table::Table;
 use crate::recording::units::{AccelerationUnit, TimeUnit};
@@ -17,6 +17,9 @@ use crate::recording::{RecordingFile, RecordingFileError};
 
 /// Relative difference below which two sample rates count as equal, because clocks are inexact.
 const SAME_RATE_SHARE: f64 = 0.01;
+
+/// Maximum number of columns that a message names.
+const MAX_NAMED: usize = 8;
 
 /// Converts a table to a recording.
 pub(super) fn recording_of_table(table: Table, map: &ColumnMap) -> Result<RecordingFile, RecordingFileError> {
@@ -182,8 +185,10 @@ impl Reading {
                     return Ok(Some(self.times(0)));
                 }
             }
-            let text =
-                "there is no time column, and the sample rate is not stated; state it in Hz".to_owned();
+            let text = format!(
+                "there is no time column, and the sample rate is not stated; state it in Hz{}",
+                self.other_columns()
+            );
             self.inquiry.ask(Ask::RateHz, &[], text);
             return Ok(None);
         };
@@ -191,10 +196,26 @@ impl Reading {
         Ok(Some(self.times(place)))
     }
 
+    /// Second half of a sentence: the columns of unknown meaning, which may include the time; empty if there are none.
+    fn other_columns(&self) -> String {
+        let names = self.table.names.iter().zip(&self.meanings);
+        let unknown: Vec<&String> = names
+            .filter(|(name, meaning)| meaning.is_none() && !name.is_empty())
+            .map(|(name, _)| name)
+            .collect();
+        let Some(first) = unknown.first().filter(|_| self.table.header) else { return String::new() };
+        let all: Vec<String> = unknown.iter().take(MAX_NAMED).map(|name| format!("{name:?}")).collect();
+        let more = if unknown.len() > MAX_NAMED { ", …" } else { "" };
+        format!(
+            ", or name the time column, as in time={first:?} (columns of unknown meaning: {}{more})",
+            all.join(", ")
+        )
+    }
+
     fn times(&mut self, place: usize) -> RawClock {
         let by_name = match self.meanings[place] {
             Some(Meaning::Time(unit)) => unit,
-            _ => None,
+            _ => time_unit_in(&self.table.names[place]),
         };
         let (name, stated) = (self.name(&[place]), self.inquiry.map.time_unit);
         self.inquiry.map.time_unit =

@@ -43,6 +43,12 @@ pub(super) fn meaning_of(name: &str) -> Option<Meaning> {
     })
 }
 
+/// The unit of time in the brackets of a column name, whatever the name itself is, as in `Zeit (ms)`.
+pub(super) fn time_unit_in(name: &str) -> Option<TimeUnit> {
+    let (_, unit) = name.split_once(['[', '('])?;
+    TimeUnit::parse(unit)
+}
+
 /// Maximum number of words in a column name; a longer text is prose.
 const MAX_WORDS: usize = 20;
 

@@ -175,11 +175,15 @@ pub(super) fn read_table(bytes: &[u8], map: &ColumnMap) -> Result<Table, Recordi
         table.push(&record, line);
     }
     if table.columns.first().is_none_or(Vec::is_empty) {
-        let problem = format!(
-            "the table has no rows of numbers with the separator {}; if its separator is another one, state it{}",
-            separator.name(),
-            comma_hint(map)
-        );
+        let problem = match content(&text).count() {
+            0 => "the file is empty".to_owned(),
+            1 if table.header => "the table has a header, but no rows of numbers".to_owned(),
+            _ => format!(
+                "the table has no rows of numbers with the separator {}; if its separator is another one, state it{}",
+                separator.name(),
+                comma_hint(map)
+            ),
+        };
         return Err(RecordingFileError::Table { problem, line: None });
     }
     if n_words > 0 {

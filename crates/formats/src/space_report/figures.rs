@@ -3,7 +3,7 @@
 use shagreen_core::people::mds::Transform;
 use shagreen_core::people::property::correlation_table;
 use shagreen_core::space::space_build::{
-    Adjective, Axis, PerceptualSpace, Prediction, SpaceBuild, kruskal_word,
+    Adjective, Axis, PerceptualSpace, Prediction, SpaceBuild, few_judges, kruskal_word,
 };
 
 use crate::figure::{Chart, Figure, Mark, Point, Scale, Series, Table, Tone};
@@ -56,10 +56,12 @@ pub fn space_figures(build: &SpaceBuild) -> Vec<(String, Figure)> {
     let all = figures.into_iter().chain(of_ratings.map(|adjective| mean_ratings(build, adjective)));
     let mut figures: Vec<(String, Figure)> =
         figure_names(build.adjectives.len()).into_iter().zip(all).collect();
+    let few = if few_judges(build).is_some() { ", few participants" } else { "" };
     for (name, figure) in &mut figures {
-        figure.set_source(build.source.label());
+        figure.set_source(&format!("{}{few}", build.source.label()));
         if name.as_str() == "authoring-space" && build.place_source() != build.source {
-            figure.set_source(&format!("{} from {}", build.place_source().label(), build.source.label()));
+            let (places, judgments) = (build.place_source().label(), build.source.label());
+            figure.set_source(&format!("{places} from {judgments}{few}"));
         }
     }
     figures
@@ -206,8 +208,9 @@ fn predicted(build: &SpaceBuild, axis: &Axis) -> Figure {
         dots = named.map(|(i, id)| Point::named(axis.felt[i], v.predicted[i], id)).collect();
         seen = axis.felt.iter().zip(predicted).map(|(felt, p)| Point::new(*felt, *p)).collect();
         let chance = v.permutation_p.map_or_else(String::new, |p| format!(", p = {p:.3}"));
+        let spread = v.nested_cv_r_deviation.map_or_else(String::new, |spread| format!(" ± {spread:.2}"));
         title = format!(
-            "{}: nested cross-validation r {:.2}{chance}; r {:.2} with features selected on all textures",
+            "{}: nested cross-validation r {:.2}{spread}{chance}; r {:.2} with features selected on all textures",
             axis.pair, v.nested_cv_r, v.cv_r
         );
     }

@@ -10,6 +10,7 @@ use shagreen_formats::hid_text::read_hid_text;
 use shagreen_formats::project::clipboard::{CopiedTexture, read_copied_texture, write_copied_texture};
 use shagreen_formats::project::{AuthoredTexture, Project, read_project, write_project};
 use shagreen_formats::settings::{KeptPrompt, Settings, read_settings, write_settings};
+use shagreen_formats::starter::starter_library;
 
 /// Reads a project whose library file does not exist.
 fn project_in(bytes: &[u8]) -> Option<Project> {
@@ -54,6 +55,7 @@ pub(crate) fn copied_texture_seeds() -> Vec<Vec<u8>> {
         library: "Starter library".to_owned(),
         axes: [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned)),
         pinned: [("cork".to_owned(), "Cork".to_owned())].into(),
+        textures: vec![starter_library().unwrap().textures.swap_remove(0)],
     };
     project.authored.iter().map(|texture| write_copied_texture(&copied(texture)).into_bytes()).collect()
 }

@@ -19,7 +19,8 @@ pub enum ReliefPlace {
 }
 
 /// Adds a texture with a relief to a project. It is rendered alone until the point moves; an authored texture with a shape
-/// that pins it is rendered instead, because a texture that is rendered alone has no shape.
+/// that pins it is rendered instead, because a texture that is rendered alone has no shape. A picture of the authored texture's
+/// own becomes that of the relief, or it would show something else than what is felt.
 pub fn join_relief(project: &mut Project, entry: Arc<TextureEntry>, place: ReliefPlace) {
     let id = entry.id.clone();
     match place {
@@ -35,6 +36,11 @@ pub fn join_relief(project: &mut Project, entry: Arc<TextureEntry>, place: Relie
             project.joined.push(entry);
         }
         ReliefPlace::Pinned(key) => {
+            if let Some(texture) = project.authored.iter_mut().find(|texture| texture.key == key)
+                && texture.picture.is_some()
+            {
+                Arc::make_mut(texture).picture = entry.picture.clone().map(Arc::new);
+            }
             join_felt(project, key, entry, None);
             if project.authored.iter().any(|texture| texture.key == key && !texture.shape.is_neutral()) {
                 project.solo = None;

@@ -193,6 +193,12 @@ fn a_project_gets_a_relief_in_its_place() {
     let mut pinned = new_project();
     join_relief(&mut pinned, of_cork(50.0), ReliefPlace::Pinned(1));
     assert!(pinned.texture().blend.locked.contains("cork") && pinned.solo.is_some());
+    assert_eq!(pinned.texture().picture, None, "its picture is interpolated from the pinned one");
+    // A picture of its own would show another surface than the one that is felt.
+    let mut pictured = new_project();
+    Arc::make_mut(&mut pictured.authored[0]).picture = library.textures[0].picture.clone().map(Arc::new);
+    join_relief(&mut pictured, of_cork(50.0), ReliefPlace::Pinned(1));
+    assert_eq!(pictured.texture().picture.as_deref(), pictured.joined[0].picture.as_ref());
     let mut shaped = new_project();
     Arc::make_mut(&mut shaped.authored[0]).shape = Shape::default().with(ShapeControl::Grain, 2.0);
     join_relief(&mut shaped, of_cork(50.0), ReliefPlace::Pinned(1));

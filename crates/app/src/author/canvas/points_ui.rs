@@ -4,7 +4,12 @@ mod compared_point;
 mod fan;
 mod names_ui;
 
-use egui::{CursorIcon, FontId, Key, Popup, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use std::sync::Arc;
+
+use egui::{
+    CursorIcon, FontId, Key, Popup, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo,
+    vec2,
+};
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::Authored;
 use shagreen_formats::project::AuthoredTexture;
@@ -15,6 +20,7 @@ use self::names_ui::names_ui;
 use super::path_tool::PathTool;
 use super::{BIG_STEP, POINT_SIZE, SITE_RADIUS, move_to, point_id, site_radius};
 use crate::author::authored_menu::{authored_keys, authored_menu};
+use crate::author::whole_space::own_help;
 use crate::command::Command;
 use crate::look::axes::Axes;
 use crate::look::drag::dragged_to;
@@ -58,6 +64,22 @@ pub(super) fn authored_points_ui(
     commands
 }
 
+/// Areas that the authored points cover, in the order of the project.
+pub(super) fn point_areas(axes: Axes, panel: &Panel<'_>) -> Vec<Rect> {
+    let textures = &panel.project.authored;
+    let places: Vec<Pos2> = textures.iter().map(|texture| axes.ui_from_space(texture.at)).collect();
+    let area = |(index, (texture, pos)): (usize, (&Arc<AuthoredTexture>, Pos2))| {
+        let is_large = index == panel.project.selected || compared_point(panel, texture).is_some();
+        let radius = if is_large { point_radius(axes, false) + RING } else { OTHER_RADIUS + OTHER_RING };
+        Rect::from_center_size(pos, Vec2::splat(2.0 * radius))
+    };
+    textures.iter().zip(fanned(&places)).enumerate().map(area).collect()
+}
+
+/// Radius of a point that is neither selected nor compared, and widths of the rings around the points, in points.
+const OTHER_RADIUS: f32 = 6.5;
+const OTHER_RING: f32 = 2.0;
+const RING: f32 = 2.5;
 /// Width of the surface that the point shows, in mm.
 const SHOWN_MM: f64 = 9.0;
 
@@ -83,19 +105,24 @@ fn other_point_ui(
         response.request_focus();
         commands.push(Command::Edit(Edit::Select(texture.key)));
     }
+    // The drag goes on with the selected point.
+    drag_offset(ui, &response, pos - axes.ui_from_space(texture.at));
     commands.extend(authored_keys(&response, panel, texture));
     commands.extend(authored_menu(&response, panel, texture));
     let is_pointed = response.hovered() || response.has_focus();
     if let Some(compared) = compared_point(panel, texture) {
         compared_point_ui(ui, pos, point_radius(axes, is_pointed), compared, t);
     } else {
-        let radius = if is_pointed { 8.0 } else { 6.5 };
-        ui.painter().circle_filled(pos, radius + 2.0, t.background);
+        let radius = if is_pointed { 8.0 } else { OTHER_RADIUS };
+        ui.painter().circle_filled(pos, radius + OTHER_RING, t.background);
         ui.painter().circle_filled(pos, radius, t.authored[usize::from(texture.color)]);
         ui.painter().circle_filled(pos, 2.5, t.background);
     }
-    let name = format!("{} {}", texture.name, texture.at);
-    response.on_hover_text(name);
+    let mut help = format!("{} {}", texture.name, texture.at);
+    if let Some(own) = own_help(panel, texture) {
+        help = format!("{help}\n{own}");
+    }
+    response.on_hover_text(help);
     commands
 }
 
@@ -127,9 +154,10 @@ fn point_ui(
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
+    let offset = drag_offset(ui, &response, pos - axes.ui_from_space(point));
     if let Some(pointer) = dragged_to(ui, &response) {
         learn(ui.ctx(), Hint::DragPoint);
-        commands.push(move_to(axes.space_from_ui(pointer)));
+        commands.push(move_to(axes.space_from_ui(pointer - offset)));
     }
     commands.extend(authored_menu(&response, panel, texture));
     if let Some(to) = nudged(ui, id, point) {
@@ -155,10 +183,22 @@ fn point_ui(
     commands
 }
 
+/// Offset of a point from its position when its drag began, in points; `now` is the present one. A point that is drawn beside
+/// others at its position does not jump when it is dragged.
+fn drag_offset(ui: &Ui, response: &Response, now: Vec2) -> Vec2 {
+    let id = response.id.with("offset of the drag");
+    ui.data_mut(|data| {
+        if response.drag_started() {
+            data.insert_temp(id, now);
+        }
+        data.get_temp(id).unwrap_or_default()
+    })
+}
+
 /// Draws the disc of the selected point, with the surface at this point as on the pad, and the color of the texture.
 fn selected_disc_ui(ui: &Ui, pos: Pos2, radius: f32, panel: &Panel<'_>, t: &Tokens) {
     let painter = ui.painter();
-    painter.circle_filled(pos, radius + 2.5, t.background);
+    painter.circle_filled(pos, radius + RING, t.background);
     painter.circle_filled(pos, radius, t.accent);
     if let Some((surface, [width_mm, height_mm])) = panel.pictures.surface() {
         let part = vec2((SHOWN_MM / width_mm) as f32, (SHOWN_MM / height_mm) as f32);

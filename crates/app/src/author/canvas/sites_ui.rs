@@ -5,8 +5,9 @@ use egui::{Color32, Popup, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, 
 use shagreen_core::space::SpacePoint;
 
 use super::path_tool::{PathTool, added};
+use super::points_ui::point_areas;
 use super::site_labels::{Around, site_labels};
-use super::{OTHER_POINT, POINT_SIZE, SITE_RADIUS, site_radius};
+use super::{SITE_RADIUS, site_radius};
 use crate::author::context_menu::context_menu;
 use crate::author::exact::clicked;
 use crate::author::locks::lock_mark;
@@ -93,12 +94,10 @@ pub(super) fn sites_ui(
         })
         .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
         .collect();
-    let point = Rect::from_center_size(axes.ui_from_space(panel.inspected().at), POINT_SIZE);
-    let other_points = panel.project.authored.iter().enumerate();
-    let other_points = other_points.filter(|(index, _)| *index != panel.project.selected);
-    let other_points =
-        other_points.map(|(_, texture)| Rect::from_center_size(axes.ui_from_space(texture.at), OTHER_POINT));
-    let words: Vec<Rect> = words.iter().copied().chain(other_points).collect();
+    let points = point_areas(axes, panel);
+    let point = points.get(panel.project.selected).copied().unwrap_or(Rect::NOTHING);
+    let other_points = points.iter().enumerate().filter(|(index, _)| *index != panel.project.selected);
+    let words: Vec<Rect> = words.iter().chain(other_points.map(|(_, area)| area)).copied().collect();
     let around = Around { words: &words, point, on_map };
     let mut covered = site_labels(ui, panel, &named, radius, &around, pointed, t);
     covered.extend(words);

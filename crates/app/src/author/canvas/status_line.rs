@@ -8,7 +8,7 @@ use shagreen_core::space::authoring::Authored;
 use shagreen_core::texture::blend::Mode;
 
 use super::FOOT;
-use crate::author::exact::taken;
+use crate::author::exact::{is_own_exactly, taken};
 use crate::command::Command;
 use crate::look::theme::{GAP, RADIUS, Tokens};
 use crate::panel::Panel;
@@ -45,7 +45,9 @@ pub(super) fn foot_ui(
         row = Rect::from_x_y_ranges(outer.shrink(GAP).x_range(), row.y_range());
     }
     let is_path = panel.session.path_point().is_some();
-    if let Some(texture) = panel.solo().filter(|_| !is_path && !asks_for_path) {
+    // A generated texture that is the authored one leaves nothing to be chosen.
+    let alone = panel.solo().filter(|texture| !is_own_exactly(panel, *texture));
+    if let Some(texture) = alone.filter(|_| !is_path && !asks_for_path) {
         return solo_ui(ui, row, panel, texture, t);
     }
     let asked = asks_for_path.then(|| (strings::path::DRAW_ONE.to_owned(), t.accent));

@@ -2,12 +2,14 @@
 
 use egui::{Button, Rect, Shape, Ui, pos2, vec2};
 
+use super::BAR_TOP;
 use crate::author::canvas::map::{ShownMap, map_choice_ui, scale_ui};
 use crate::author::canvas::path_tool::{PathTool, path_settings_ui};
 use crate::author::canvas::view::view_buttons;
 use crate::command::Command;
 use crate::look::axes::{Axes, View};
 use crate::look::theme::{RADIUS, Tokens};
+use crate::look::together::together_ui;
 use crate::panel::Panel;
 use crate::strings::path as strings;
 
@@ -34,7 +36,7 @@ pub(super) fn tool_bar(
 ) -> BarOutcome {
     let mut commands = Vec::new();
     let mut view = None;
-    let area = Rect::from_min_size(pos2(outer.left() + 32.0, outer.top() + 3.0), vec2(width, 24.0));
+    let area = Rect::from_min_size(pos2(outer.left() + 32.0, outer.top() + BAR_TOP), vec2(width, 24.0));
     let mut row = ui.new_child(egui::UiBuilder::new().max_rect(area));
     let shape = row.painter().add(Shape::Noop);
     row.horizontal_wrapped(|ui| {
@@ -45,7 +47,7 @@ pub(super) fn tool_bar(
         if let Some(map) = map {
             scale_ui(ui, map, t);
         }
-        view = view_buttons(ui, axes, panel);
+        view = together_ui(ui, "view", |ui| view_buttons(ui, axes, panel));
         let button = Button::new(strings::PATH).selected(tool.is_on);
         if ui.add(button).on_hover_text(strings::PATH_HELP).clicked() {
             commands.push(Command::TogglePathTool);

@@ -48,7 +48,10 @@ pub(crate) fn bar_ui(ui: &mut Ui, prompts: &mut Prompts, earlier: &[KeptPrompt])
         let field = ui.add(field).on_hover_text(words::FIELD_HELP);
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, words::FIELD));
         if field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter)) {
-            asked = Some(make(prompts));
+            // The button makes an arbitrary surface without words, too.
+            if !prompts.text.trim().is_empty() {
+                asked = Some(make(prompts));
+            }
             // The next words are typed while the texture is made. Without the focus, their letters would be shortcuts.
             field.request_focus();
         }

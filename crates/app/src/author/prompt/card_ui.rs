@@ -117,7 +117,8 @@ pub(crate) fn card_ui(
     let position = Label::new(RichText::new(format!("{} · {}", along(0), along(1))).strong());
     let help = poles.each_ref().map(strings::axis_help).join("\n");
     lines.add(position.truncate().selectable(false)).on_hover_text(help);
-    let near = words::near(&nearest(panel, guess));
+    // The prompt box may hold other words by now.
+    let near = format!("{} · {}", guess.name, words::near(&nearest(panel, guess)));
     lines.add(Label::new(RichText::new(near).small()).truncate().selectable(false));
     if let Some(command) = materials_ui(&mut lines, guess) {
         asked = Some(command);

@@ -1,18 +1,19 @@
 //! Figure of the scope, which the pointer reads and measures.
 
 use egui::{
-    Color32, FontId, Pos2, Rangef, Rect, Response, Role, Sense, Stroke, TextStyle, Ui, WidgetInfo, pos2, vec2,
+    Color32, FontId, Label, Pos2, Rangef, Rect, Response, RichText, Role, Sense, Shape, Stroke, Ui, Vec2,
+    WidgetInfo, pos2, vec2,
 };
 use egui_plot::{
-    Corner, GridInput, GridMark, Legend, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotTransform,
-    uniform_grid_spacer,
+    GridInput, GridMark, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotTransform, uniform_grid_spacer,
 };
 use shagreen_formats::figure::{Chart, Figure, Scale, Series, Tone};
 
 use crate::choices::scope::View;
 use crate::look::map_plot::map_plot;
-use crate::look::plot::{fixed, nice_step, x_axis};
-use crate::look::theme::{tokens, tone_color};
+use crate::look::plot::{after_start, fixed, nice_step, x_axis};
+use crate::look::theme::{Tokens, tokens, tone_color};
+use crate::look::together::together_ui;
 use crate::strings::scope as words;
 
 /// Minimum length of a drag that measures, in points.
@@ -96,13 +97,15 @@ fn chart_plot(ui: &mut Ui, name: &str, view: View, chart: &Chart) -> (Rect, Plot
     let t = tokens(ui.ctx());
     let [x, y] = chart.bounds();
     let scale = chart.x_scale;
-    let across = x_axis().formatter(move |mark, _| match view {
-        // The lowest number of the vertical axis is there.
-        _ if mark.value <= scale.laid_out(x.0) => String::new(),
-        View::Waveform => format!("{:.0} ms", mark.value),
-        View::Spectrum => format!("{:.0} Hz", scale.coordinate(mark.value)),
-        View::Spectrogram | View::Level | View::Contact => format!("{:.0} s", mark.value),
-    });
+    if chart.series.len() > 1 {
+        legend_ui(ui, view, chart, t);
+    }
+    let written = move |value: f64| match view {
+        View::Waveform => format!("{value:.0} ms"),
+        View::Spectrum => words::frequency_mark(scale.coordinate(value), MARKED_HZ[0]),
+        View::Spectrogram | View::Level | View::Contact => format!("{value:.0} s"),
+    };
+    let across = x_axis().formatter(after_start(scale.laid_out(x.0), written));
     // Step between grid lines: large enough that every number is legible.
     let step = match view {
         View::Waveform => 0.5 * y.1,
@@ -114,11 +117,6 @@ fn chart_plot(ui: &mut Ui, name: &str, view: View, chart: &Chart) -> (Rect, Plot
         .y_axis_formatter(|mark, _| format!("{}", mark.value + 0.0))
         .y_grid_spacer(uniform_grid_spacer(move |_| [2.0 * step, step, step]))
         .height(ui.available_height());
-    if chart.series.len() > 1 {
-        let corner = if view == View::Level { Corner::LeftBottom } else { Corner::LeftTop };
-        let legend = Legend::default().position(corner).background_alpha(0.6).text_style(TextStyle::Small);
-        plot = plot.legend(legend);
-    }
     if scale == Scale::Logarithmic {
         plot = plot.x_grid_spacer(|_: GridInput| {
             MARKED_HZ.map(|hz| GridMark { value: hz.log10(), step_size: 0.3 }).to_vec()
@@ -136,18 +134,47 @@ fn chart_plot(ui: &mut Ui, name: &str, view: View, chart: &Chart) -> (Rect, Plot
                 Tone::Main if view == View::Spectrum => (2.5, LineStyle::Solid),
                 _ => (1.3, LineStyle::Solid),
             };
-            let line = Line::new(named(view, series), points).allow_hover(false).width(width).style(style);
+            let line = Line::new("", points).allow_hover(false).width(width).style(style);
             plot.line(line.color(tone_color(t, series.tone)));
         }
     });
     (shown.response.rect, shown.transform)
 }
 
-/// Name of a series in the legend. Contributing textures need none: their colors are the same throughout the window.
-fn named(view: View, series: &Series) -> &str {
-    let is_parent =
-        view == View::Spectrum && matches!(series.tone, Tone::Second | Tone::Third | Tone::Fourth);
-    if is_parent { "" } else { &series.name }
+/// Area of a line in the legend, in points.
+const LEGEND_LINE: Vec2 = vec2(12.0, 14.0);
+
+/// Draws the legend in a row above the plot, where it covers no line.
+fn legend_ui(ui: &mut Ui, view: View, chart: &Chart, t: &Tokens) {
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = LEGEND_LINE.y;
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing = vec2(9.0, 1.0);
+            for series in chart.series.iter().filter(|series| is_in_legend(view, series)) {
+                together_ui(ui, &series.name, |ui| entry_ui(ui, series, t));
+            }
+        });
+    });
+}
+
+/// Draws an entry of the legend.
+fn entry_ui(ui: &mut Ui, series: &Series, t: &Tokens) {
+    ui.spacing_mut().item_spacing.x = 4.0;
+    let (area, _) = ui.allocate_exact_size(LEGEND_LINE, Sense::hover());
+    let stroke = Stroke::new(2.0, tone_color(t, series.tone));
+    let ends = [area.left_center(), area.right_center()];
+    if series.tone == Tone::Limit {
+        ui.painter().extend(Shape::dashed_line(&ends, stroke, 5.0, 2.0));
+    } else {
+        ui.painter().line_segment(ends, stroke);
+    }
+    let text = RichText::new(&series.name).small().color(t.text_weak);
+    ui.add(Label::new(text).selectable(false));
+}
+
+/// Whether the legend has a series. Contributing textures need none: their colors are the same throughout the window.
+fn is_in_legend(view: View, series: &Series) -> bool {
+    view != View::Spectrum || !matches!(series.tone, Tone::Second | Tone::Third | Tone::Fourth)
 }
 
 /// Draws a box beside the pointer with its position on the axis and the value of each line there.

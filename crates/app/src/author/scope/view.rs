@@ -112,8 +112,7 @@ impl View {
                 let series = contacts(seen.buffer);
                 let values = series.iter().flat_map(|series| &series.points).map(|point| point.y);
                 let highest = values.fold(LEAST_CONTACT, f64::max);
-                // Room above the lines for the legend.
-                let shown = [history, (-0.05 * highest, 1.6 * highest)];
+                let shown = [history, (-0.05 * highest, 1.1 * highest)];
                 chart(strings::TIME_AXIS, Scale::Linear, shown, series)
             }
         }

@@ -5,9 +5,9 @@ use egui_plot::{HLine, Line, Plot, PlotPoints};
 use shagreen_device::status::{STROKE_BUDGET_SECS, TAP_BUDGET_SECS};
 
 use super::{note, warning};
-use crate::look::plot::{fixed, title};
+use crate::look::plot::{after_start, fixed, title};
 use crate::look::theme::tokens;
-use crate::session::Session;
+use crate::session::{LATENCY_HISTORY_SECS, Session};
 use crate::strings::devices as strings;
 
 /// Height of the graph, in points.
@@ -26,12 +26,12 @@ pub(super) fn latency_ui(ui: &mut Ui, session: &Session) {
     let taps = line(|(secs, _, tap)| (*secs, *tap));
     fixed(Plot::new("latency"), t.line)
         .height(HEIGHT)
-        .x_axis_formatter(|mark, _| format!("{:.0} s", mark.value + 0.0))
+        .x_axis_formatter(after_start(-LATENCY_HISTORY_SECS, |secs| format!("{:.0} s", secs + 0.0)))
         .x_grid_spacer(egui_plot::uniform_grid_spacer(|_| [5.0, 5.0, 1.0]))
         .y_axis_formatter(|mark, _| format!("{:.0}", mark.value))
         .y_grid_spacer(egui_plot::uniform_grid_spacer(|_| [20.0, 10.0, 10.0]))
         .show(ui, |plot| {
-            plot.set_plot_bounds_x(-crate::session::LATENCY_HISTORY_SECS..=0.0);
+            plot.set_plot_bounds_x(-LATENCY_HISTORY_SECS..=0.0);
             plot.set_plot_bounds_y(0.0..=TOP_MS);
             for budget_secs in [STROKE_BUDGET_SECS, TAP_BUDGET_SECS] {
                 plot.hline(HLine::new("", 1e3 * f64::from(budget_secs)).color(t.warning).width(1.0));

@@ -6,7 +6,7 @@ use egui_plot::{Line, Plot, PlotPoints, Points};
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::command::Command;
 use crate::look::list::ShowList as _;
-use crate::look::plot::fixed;
+use crate::look::plot::{after_start, fixed};
 use crate::look::theme::tokens;
 use crate::session::Session;
 use crate::state::rig::SIDES_MM;
@@ -93,7 +93,7 @@ impl DevicesSheet {
             (0..=50).map(|i| f64::from(i) / 50.0).map(|p| [100.0 * p, map.force_n(p, true)]).collect();
         fixed(Plot::new("pressure"), t.line)
             .height(HEIGHT)
-            .x_axis_formatter(|mark, _| format!("{:.0} %", mark.value))
+            .x_axis_formatter(after_start(0.0, |percent| format!("{percent:.0} %")))
             .x_grid_spacer(egui_plot::uniform_grid_spacer(|_| [50.0, 25.0, 25.0]))
             .y_axis_formatter(|mark, _| format!("{:.0} N", mark.value))
             .show(ui, |plot| {

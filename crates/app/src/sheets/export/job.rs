@@ -8,6 +8,7 @@ use shagreen_core::units::Hertz;
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::library::{Provenance, TextureEntry};
 use shagreen_formats::wav::sidecar_path;
+use shagreen_formats::wav_encoding::Level;
 use shagreen_studio::export::{ExportFormat, Rendered, WAV, lost_in_wav, paths_in, write_models};
 use shagreen_studio::file::one_line;
 
@@ -83,9 +84,12 @@ impl Job {
     /// # Errors
     /// States why a texture cannot be exported.
     pub(super) fn summary(&self) -> Result<Summary, String> {
-        let mut summary = Summary::default();
+        let mut summary = Summary { lost: self.lost_of_paths().into_iter().collect(), ..Summary::default() };
         match &self.format {
             Format::Wav(options) => {
+                if self.scales_several(options) && !options.shares_scale {
+                    summary.lost.push(strings::LEVELS_LOST.to_owned());
+                }
                 let texture = match &self.what {
                     What::Audible(audible) => audible.entry.as_ref().ok(),
                     What::All(_) => None,
@@ -108,6 +112,43 @@ impl Job {
             }
         }
         Ok(summary)
+    }
+
+    /// States that paths of authored textures are not stored. A texture model is that of the point, and so is the signal of
+    /// a texture whose path does not play.
+    fn lost_of_paths(&self) -> Option<String> {
+        match &self.what {
+            What::All(sources) => {
+                let names: Vec<&str> = sources.names_with_paths().collect();
+                (!names.is_empty()).then(|| strings::paths_lost(&names))
+            }
+            What::Audible(audible) => {
+                let plays = audible.plays_path() && matches!(self.format, Format::Wav(_));
+                (audible.has_path && !plays).then(|| strings::PATH_LOST.to_owned())
+            }
+        }
+    }
+
+    /// Whether several signals are scaled to peaks.
+    fn scales_several(&self, options: &SignalOptions) -> bool {
+        matches!(self.what, What::All(_)) && options.encoding.level == Level::Peak
+    }
+
+    /// Acceleration in m/s² of a sample of 1 that all signals share; `None` if each has its own.
+    ///
+    /// # Errors
+    /// A signal cannot be rendered.
+    fn shared_scale(&self, signals: &[SignalFile], options: &SignalOptions) -> Result<Option<f64>, String> {
+        if !(self.scales_several(options) && options.shares_scale) {
+            return Ok(None);
+        }
+        // Rendered once more when it is written: all samples at once may not fit into memory.
+        let mut peak_mps2 = 0.0_f32;
+        for signal in signals {
+            let samples = signal.samples(options)?;
+            peak_mps2 = samples.iter().fold(peak_mps2, |peak, x| peak.max(x.abs()));
+        }
+        Ok(Some(options.encoding.full_scale(&[peak_mps2])))
     }
 
     /// Signal of the Signals workspace that is exported.
@@ -162,16 +203,29 @@ impl Job {
     fn write(&self, paths: &[PathBuf]) -> Result<(), String> {
         match &self.format {
             Format::Wav(options) => {
-                for (signal, path) in self.signals()?.iter().zip(paths) {
-                    signal.write(path, options)?;
+                let signals = self.signals()?;
+                let scale_mps2 = self.shared_scale(&signals, options)?;
+                if let Some(folder) = self.folder() {
+                    let no_folder = |error: std::io::Error| {
+                        strings::no_folder(&error.to_string(), &folder.display().to_string())
+                    };
+                    std::fs::create_dir_all(folder).map_err(no_folder)?;
+                }
+                for (signal, path) in signals.iter().zip(paths) {
+                    signal.write(path, options, scale_mps2)?;
                 }
             }
             Format::Model(format) => {
-                let written = write_models(&self.entries()?, paths, *format, CREATED_BY, None);
+                let written = write_models(&self.entries()?, paths, *format, CREATED_BY, self.folder());
                 written.map_err(|error| one_line(&error))?;
             }
         }
         Ok(())
+    }
+
+    /// Folder of several files, which is created if it does not exist.
+    fn folder(&self) -> Option<&Path> {
+        matches!(self.what, What::All(_)).then_some(&*self.path)
     }
 
     fn signals(&self) -> Result<Vec<SignalFile>, String> {
@@ -215,6 +269,7 @@ mod tests {
             name: entry.name.clone(),
             signal: Err("no signal".to_owned()),
             entry: Ok(entry),
+            has_path: true,
         });
         for format in FORMATS {
             let path = folder.path().join("mine").with_extension(format.ending());
@@ -226,7 +281,9 @@ mod tests {
             assert!(matches!(job(&path).run(false), Outcome::Saved(paths) if paths == [path.clone()]));
             assert!(matches!(job(&path).run(false), Outcome::Exists(paths) if paths == [path.clone()]));
             assert!(matches!(job(&path).run(true), Outcome::Saved(_)));
-            assert_eq!(job(&path).summary().unwrap().lost, format.lost(&library.textures[0]));
+            let mut lost = vec![super::strings::PATH_LOST.to_owned()];
+            lost.extend(format.lost(&library.textures[0]));
+            assert_eq!(job(&path).summary().unwrap().lost, lost);
             std::fs::write(&path, "my notes").unwrap();
             for replaces in [false, true] {
                 assert!(matches!(job(&path).run(replaces), Outcome::Failed(_)), "{replaces}");

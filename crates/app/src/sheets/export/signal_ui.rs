@@ -14,8 +14,17 @@ const SECS: std::ops::RangeInclusive<f64> = 0.05..=MAX_TRACK_SECS;
 /// Sample rates to choose from, in Hz.
 const RATES_HZ: [u32; 6] = [4000, 8000, 16_000, 44_100, 48_000, 96_000];
 
-/// Draws the options; returns whether any has changed.
-pub(super) fn options_ui(ui: &mut Ui, signal: &SignalFile, options: &mut SignalOptions) -> bool {
+/// Space between a choice and the circle of the next one, in addition to the usual distance, in points.
+const BETWEEN_CHOICES: f32 = 14.0;
+
+/// Draws the options; returns whether any has changed. `is_all` states whether all authored textures are exported; `None` if
+/// there is one only.
+pub(super) fn options_ui(
+    ui: &mut Ui,
+    signal: &SignalFile,
+    options: &mut SignalOptions,
+    is_all: Option<bool>,
+) -> bool {
     let before = options.clone();
     let is_of_bench = signal.is_of_bench();
     let has_stroke = signal.stroke.is_some() && !is_of_bench;
@@ -68,6 +77,12 @@ pub(super) fn options_ui(ui: &mut Ui, signal: &SignalFile, options: &mut SignalO
             })
             .response
             .accessible_name(strings::SAMPLES);
+        if let Some(is_all) = is_all {
+            let is_scaled = options.encoding.level == Level::Peak;
+            let scale = Checkbox::new(&mut options.shares_scale, strings::ONE_SCALE);
+            let scale = ui.add_enabled(is_all && is_scaled, scale);
+            scale.on_hover_text(strings::ONE_SCALE_HELP).on_disabled_hover_text(strings::NO_ONE_SCALE);
+        }
     });
     ui.horizontal_wrapped(|ui| {
         ui.label(strings::LEVEL);
@@ -76,6 +91,9 @@ pub(super) fn options_ui(ui: &mut Ui, signal: &SignalFile, options: &mut SignalO
             options.encoding.level = Level::Peak;
         }
         for level in [Level::Peak, Level::Kept] {
+            if level != Level::Peak {
+                ui.add_space(BETWEEN_CHOICES);
+            }
             ui.add_enabled_ui(can_keep || level == Level::Peak, |ui| {
                 let choice = ui.radio_value(&mut options.encoding.level, level, strings::level(level));
                 choice.on_hover_text(strings::level_help(level));

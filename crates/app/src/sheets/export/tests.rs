@@ -9,7 +9,12 @@ use crate::state::audible_texture::AudibleTexture;
 /// Sheet for two authored textures, with this path.
 fn sheet(path: &Path) -> ExportSheet {
     let missing = || "missing".to_owned();
-    let audible = AudibleTexture { name: "Oak".to_owned(), signal: Err(missing()), entry: Err(missing()) };
+    let audible = AudibleTexture {
+        name: "Oak".to_owned(),
+        signal: Err(missing()),
+        entry: Err(missing()),
+        has_path: false,
+    };
     let contact = Contact::default();
     let subject = ExportSubject { audible, is_solo: false, n_authored: 2, contact };
     let mut sheet = ExportSheet::new(subject, WAV, Path::new("/home/u"), "oak");

@@ -70,25 +70,21 @@ fn recording(batch: &mut Batch, id: u64) -> Option<&mut RecordingState> {
 fn ask_ui(ui: &mut Ui, batch: &mut Batch, id: u64, for_all: &mut bool) {
     let t = tokens(ui.ctx());
     let Some(state) = recording(batch, id) else { return };
-    let given = questions_ui(ui, state);
     let has_questions =
         !(state.outcome.questions.is_empty() && state.answered.is_empty() && state.wrong.is_empty());
+    if let Some(Err(reason)) = &state.outcome.recording {
+        // Before the questions: a file with such a fault may not be usable whatever the answers are.
+        ui.add(Label::new(RichText::new(sentence(reason)).color(t.error)).wrap());
+        if !has_questions {
+            ui.add(Label::new(RichText::new(strings::ACCEPTED).small().color(t.text_weak)).wrap());
+        }
+        ui.add_space(GAP);
+    }
+    let given = questions_ui(ui, state);
     let asked: Vec<_> = state.outcome.questions.clone();
-    match &state.outcome.recording {
-        Some(Err(reason)) => {
-            ui.add_space(GAP);
-            ui.add(Label::new(RichText::new(sentence(reason)).color(t.error)).wrap());
-            if !has_questions {
-                ui.add(Label::new(RichText::new(strings::ACCEPTED).small().color(t.text_weak)).wrap());
-            }
-        }
-        None => {
-            ui.add_space(GAP);
-            ui.add(
-                Label::new(RichText::new(strings::ANSWER_FIRST).color(t.text_weak)).wrap().selectable(false),
-            );
-        }
-        Some(Ok(_)) => {}
+    if state.outcome.recording.is_none() {
+        ui.add_space(GAP);
+        ui.add(Label::new(RichText::new(strings::ANSWER_FIRST).color(t.text_weak)).wrap().selectable(false));
     }
     if asked.iter().any(|question| batch.n_asking(question) > 1) {
         ui.checkbox(for_all, strings::FOR_ALL);

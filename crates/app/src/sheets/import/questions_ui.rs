@@ -131,7 +131,9 @@ fn control_ui(ui: &mut Ui, question: &Question, state: Given<'_>, typed: &mut Ty
     let said = said.or(question.guess.as_deref().filter(|_| question.choices.is_empty()));
     let key = question.what.key();
     let mut text = typed.get(key).cloned().unwrap_or_else(|| said.unwrap_or("").to_owned());
-    let field = ui.add(TextEdit::singleline(&mut text).hint_text(hint).desired_width(width - 8.0));
+    // An id of its own: a message that appears or goes above it must not move the keyboard focus to another field.
+    let field = TextEdit::singleline(&mut text).id_salt(("typed answer", key)).hint_text(hint);
+    let field = ui.add(field.desired_width(width - 8.0));
     let field = field.accessible_name(strings::typed(&name));
     if field.changed() {
         typed.insert(key, text.clone());

@@ -130,6 +130,8 @@ impl ImportSheet {
         let middle = egui::Rect::from_min_max(area.min, egui::pos2(area.right(), area.bottom() - foot - GAP));
         let (left, right) = middle.split_left_right_at_x(middle.left() + FILES_WIDTH);
         let right = egui::Rect::from_min_max(right.min + vec2(GROUP_GAP, 0.0), right.max);
+        // Without files, the text about them is in the middle of the sheet.
+        let right = if self.batch.files().is_empty() { middle } else { right };
         self.side_ui(&mut ui.new_child(UiBuilder::new().max_rect(left).layout(Layout::top_down(Align::Min))));
         let mut child = ui.new_child(UiBuilder::new().max_rect(right).layout(Layout::top_down(Align::Min)));
         self.chosen_ui(&mut child, around);

@@ -3,7 +3,7 @@
 use egui::{Color32, Ui};
 use egui_plot::{FilledArea, GridMark, Line, Plot, PlotPoints, PlotUi, Span};
 
-use crate::look::plot::{fixed, title};
+use crate::look::plot::{after_start, fixed, title};
 use crate::look::theme::{Tokens, tokens};
 use crate::sheets::import::plane_plot::short;
 use crate::sheets::import::trace::Trace;
@@ -60,7 +60,7 @@ fn row<'a>(
         .show_axes([name == strings::FORCE, true])
         .y_axis_min_width(MARKS_WIDTH)
         .y_grid_spacer(move |_| marks.iter().copied().filter(|m| m.value >= range[0]).collect())
-        .x_axis_formatter(|mark, _| format!("{} s", short(mark.value)))
+        .x_axis_formatter(after_start(0.0, |secs| format!("{} s", short(secs))))
         .y_axis_formatter(|mark, _| short(mark.value))
         .show(ui, move |plot| {
             plot.set_plot_bounds_x(0.0..=trace.seconds.max(1e-3));

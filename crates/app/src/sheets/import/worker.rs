@@ -9,6 +9,7 @@ use shagreen_core::recording::fit::{FitOptions, Fitted, fit};
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::photo_pixels;
+use shagreen_formats::project::EXTENSION;
 use shagreen_formats::recording::directional::StrokeFolder;
 use shagreen_formats::recording::{ColumnMap, Question, RecordingFileError, read_recording};
 use shagreen_formats::wav::sidecar_names;
@@ -259,8 +260,11 @@ fn load(sources: Vec<Source>, outbox: &Sender<Message>) -> bool {
         }
     }
     others.iter().all(|source| {
-        let content =
-            source.bytes().map_or_else(LoadedContent::Failed, |bytes| load_one(source, bytes, &others, &map));
+        let content = if source.path().is_dir() {
+            LoadedContent::Failed(strings::NOTHING_IN_FOLDER.to_owned())
+        } else {
+            source.bytes().map_or_else(LoadedContent::Failed, |bytes| load_one(source, bytes, &others, &map))
+        };
         outbox.send(Message::Loaded(Loaded { name: source.name(), content })).is_ok()
     })
 }
@@ -278,6 +282,9 @@ fn load_strokes(found: StrokeFolder, outbox: &Sender<Message>) -> bool {
 
 fn load_one(source: &Source, bytes: Vec<u8>, all: &[Source], map: &ColumnMap) -> LoadedContent {
     let ending = source.ending();
+    if ending == EXTENSION {
+        return LoadedContent::Failed(strings::IS_PROJECT.to_owned());
+    }
     if ending == "json" && is_sidecar(source, all) {
         return LoadedContent::Helper { note: strings::IS_SIDECAR };
     }

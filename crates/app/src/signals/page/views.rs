@@ -9,7 +9,7 @@ use super::{SignalsPage, View};
 use crate::choices::signals::Slot;
 use crate::command::Command;
 use crate::figure_ui::framed_figure_ui;
-use crate::look::theme::{GAP, GROUP_GAP, tokens};
+use crate::look::theme::{GAP, GROUP_GAP, SCROLL_BAR_ROOM, tokens};
 use crate::signals::analysis::ByRate;
 use crate::signals::editor_ui::tools_ui;
 use crate::signals::features_ui::features_ui;
@@ -149,7 +149,11 @@ impl SignalsPage {
             Some(Ok(compared)) => {
                 let figure = Arc::new(features_figure(compared, names));
                 let scroll = ScrollArea::both().id_salt("features").auto_shrink(false);
-                commands.extend(scroll.show(&mut left, |ui| features_ui(ui, compared, names, &figure)).inner);
+                let shown = scroll.show(&mut left, |ui| {
+                    ui.set_max_width(ui.available_width() - SCROLL_BAR_ROOM);
+                    features_ui(ui, compared, names, &figure)
+                });
+                commands.extend(shown.inner);
             }
             Some(Err(reason)) => {
                 let text = RichText::new(reason).color(tokens(left.ctx()).warning);

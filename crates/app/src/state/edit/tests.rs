@@ -146,3 +146,18 @@ fn a_snapshot_brings_a_state_back_but_not_its_name() {
     assert_eq!(after(&kept, [Edit::RemoveSnapshot(0)]), project());
     assert_eq!(after(&kept, [Edit::RestoreSnapshot(9), Edit::RemoveSnapshot(9)]), kept);
 }
+
+#[test]
+fn a_snapshot_restores_its_own_texture_and_no_other() {
+    let at = SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 };
+    let first = project().texture().clone();
+    let kept = after(&project(), [Edit::KeepSnapshot, Edit::MovePoint(at)]);
+    let two = after(&kept, [Edit::Author(AuthoredTexture { at, ..AuthoredTexture::new(0, "Felt") })]);
+    assert_eq!(Edit::RestoreSnapshot(0).label(&two), "Restore snapshot of Oak copy");
+    let restored = after(&two, [Edit::RestoreSnapshot(0)]);
+    assert_eq!((restored.texture(), &restored.authored[1]), (&first, &two.authored[1]));
+    let without = after(&two, [Edit::Remove(first.key)]);
+    let again = after(&without, [Edit::RestoreSnapshot(0)]);
+    assert_eq!((again.authored.len(), again.texture()), (2, &first), "it comes back");
+    assert_eq!(again.authored[0].at, at, "beside the other one");
+}

@@ -137,10 +137,17 @@ pub fn fit_directions(
         let errors_db: Vec<f64> = powers.iter().map(|p| spread_db / (p.n() as f64).sqrt()).collect();
         modulation_by_chance_db(&axes_rad, &errors_db)
     });
+    let along =
+        || axes_rad.iter().map(|axis| format!("{:.0}°", axis.to_degrees())).collect::<Vec<_>>().join(" and ");
     if found.is_none() {
         notes.push(format!(
             "Strokes along {} do not show a lay, so the texture is isotropic; record strokes at 0°, 45°, 90° and 135°.",
-            axes_rad.iter().map(|axis| format!("{:.0}°", axis.to_degrees())).collect::<Vec<_>>().join(" and ")
+            along()
+        ));
+    } else if axes_rad.len() == 2 {
+        notes.push(format!(
+            "Strokes along {} only: the lay is assumed to lie along one of them; if it lies between them, the difference between along and across is larger than computed. Record strokes at 0°, 45°, 90° and 135°.",
+            along()
         ));
     }
     let least_db = chance_db.unwrap_or(0.0).max(LEAST_MODULATION_DB);

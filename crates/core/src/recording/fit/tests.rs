@@ -1,4 +1,4 @@
-use super::{FitError, FitOptions, FitReport, fit};
+use super::{FitError, FitOptions, FitReport, fit, hull_share};
 use crate::dsp::ar::test_signals::from_resonances;
 use crate::dsp::spectrum::{goodness_of_fit, median, rms};
 use crate::maths::rng::lcg_noise;
@@ -7,6 +7,15 @@ use crate::texture::Interpolation;
 use crate::texture::plane::Plane;
 use crate::units::{Contact, Hertz};
 use std::f64::consts::TAU;
+
+/// Before, a recording at one speed and force covered "-0 %" of the plane.
+#[test]
+fn a_single_speed_and_force_covers_zero_percent() {
+    let few: [&[[f64; 2]]; 3] = [&[], &[[1.0, 1.0]], &[[0.5, 0.5], [1.0, 1.0]]];
+    for points in few {
+        assert_eq!(format!("{:.0} %", 100.0 * hull_share(points)), "0 %");
+    }
+}
 
 /// Resonances of the texture in all tests; its level follows the power law below.
 const RESONANCES: [(Hertz, f64); 2] = [(Hertz(90.0), 0.97), (Hertz(230.0), 0.95)];

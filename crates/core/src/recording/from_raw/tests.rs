@@ -168,7 +168,7 @@ fn coarse_converters_and_gravity_are_neither_stuck_nor_clipped() {
     // Eight converter steps from peak to peak, plus gravity.
     check_findings(with_axis(|axis| axis.iter_mut().for_each(|v| *v = v.round() + 9.8)), &[], 2.0);
     // A slow oscillation repeats values at its rounded peaks.
-    let swing = |row: usize| (100.0 * (TAU * 2.0 * row as f64 / RATE_HZ).sin()).round();
+    let swing = |row: usize| (40.0 * (TAU * 2.0 * row as f64 / RATE_HZ).sin()).round();
     check_findings(with_axis(|axis| (0..2000).for_each(|row| axis[row] = swing(row))), &[], 2.0);
 }
 
@@ -187,7 +187,8 @@ fn axes_are_combined_and_dead_ones_left_out() {
     let energy: f64 = raw.acceleration_mps2.iter().flatten().map(|v| v * v).sum();
     let recording = check_findings(raw, &["dead axis", "axes combined"], 2.0);
     let combined: f64 = recording.acceleration_mps2.iter().map(|v| v * v).sum();
-    assert!((combined / energy - 1.0).abs() < 1e-12);
+    // Energy is restored above 10 Hz; the mean and slower changes of white noise are a small part of it.
+    assert!((combined / energy - 1.0).abs() < 0.005, "{combined} for {energy}");
 }
 
 #[test]

@@ -7,6 +7,7 @@
 
 use realfft::RealFftPlanner;
 
+use crate::dsp::spectrum::{goodness_of_fit, welch};
 use crate::maths::statistics::{centered, dot, mean};
 use crate::signals::quality::correlation::Correlator;
 use crate::signals::quality::features::LEAST_POWER;
@@ -21,6 +22,11 @@ const LEAST_CORRELATION: f64 = 0.5;
 /// Spectral difference up to which two signals can be the same texture, in dB. Two noises of one texture differ by up to
 /// 2.7 dB over 0.8 s, and by 0.5 dB over 8 s (25 textures of the starter library).
 const SAME_SPECTRUM_DB: f64 = 3.0;
+/// Goodness of fit of the spectra from which two signals can be the same texture. Octave levels alone do not tell two
+/// tones of one octave apart. The spectra of two noises of 0.8 s, in windows of 0.1 s, have about 0.9.
+const SAME_SPECTRUM_GFC: f64 = 0.7;
+/// Window of these spectra, in s.
+const WINDOW_SECS: f64 = 0.1;
 /// Edges of the compared bands, in Hz: octaves, up to the band limit of the model.
 const EDGES_HZ: [f64; 7] = [20.0, 40.0, 80.0, 160.0, 320.0, 640.0, 1000.0];
 const N_BANDS: usize = EDGES_HZ.len() - 1;
@@ -46,6 +52,8 @@ pub struct Agreement {
     pub correlation: f64,
     /// Root-mean-square difference of the levels in octave bands from 20 to 1000 Hz, in dB.
     pub spectra_db: f64,
+    /// Goodness of fit of the power spectral densities in steps of 10 Hz, 0 to 1; 1 for signals that are too short for it.
+    pub spectra_gfc: f64,
 }
 
 impl Agreement {
@@ -56,7 +64,7 @@ impl Agreement {
         let [a, b] = [centered(&reference[..n]), centered(&other[..n])];
         let (power_a, power_b) = (dot(&a, &a), dot(&b, &b));
         if power_a.max(power_b) <= LEAST_POWER * n as f64 {
-            return Self { correlation: 1.0, spectra_db: 0.0 };
+            return Self { correlation: 1.0, spectra_db: 0.0, spectra_gfc: 1.0 };
         }
         let norm = (power_a * power_b).sqrt();
         let correlation = if norm > 0.0 {
@@ -69,19 +77,33 @@ impl Agreement {
         let (bands_a, bands_b) = (band_powers(&a, rate), band_powers(&b, rate));
         let least = LEAST_SHARE * bands_a.iter().sum::<f64>().max(bands_b.iter().sum());
         let squares = bands_a.iter().zip(&bands_b).map(|(a, b)| level_difference_db(*a, *b, least).powi(2));
-        Self { correlation: correlation.min(1.0), spectra_db: mean(&squares.collect::<Vec<_>>()).sqrt() }
+        Self {
+            correlation: correlation.min(1.0),
+            spectra_db: mean(&squares.collect::<Vec<_>>()).sqrt(),
+            spectra_gfc: spectra_gfc(&a, &b, rate),
+        }
     }
 
     /// Relation that this agreement indicates.
     pub fn relation(&self) -> Relation {
         if self.correlation >= LEAST_CORRELATION {
             Relation::Processed
-        } else if self.spectra_db <= SAME_SPECTRUM_DB {
+        } else if self.spectra_db <= SAME_SPECTRUM_DB && self.spectra_gfc >= SAME_SPECTRUM_GFC {
             Relation::DifferentNoise
         } else {
             Relation::Unrelated
         }
     }
+}
+
+/// Goodness of fit of the power spectral densities of two signals; 1 if they are shorter than a window.
+fn spectra_gfc(a: &[f64], b: &[f64], rate: Hertz) -> f64 {
+    let window = (WINDOW_SECS * rate.0) as usize;
+    let density = |signal: &[f64]| -> Vec<f64> {
+        welch(signal, rate, window).into_iter().map(|(_, density)| density).collect()
+    };
+    let (a, b) = (density(a), density(b));
+    if a.is_empty() { 1.0 } else { goodness_of_fit(&a, &b) }
 }
 
 /// Difference of two powers in dB, where smaller powers than `least` count as `least`; 0 if both are zero.
@@ -144,6 +166,20 @@ mod tests {
             assert_eq!(agreement.relation(), Relation::DifferentNoise, "{agreement:?}");
             assert_eq!(of(&a, &scaled(&b, 2.0)).relation(), Relation::Unrelated, "6 dB louder");
         }
+    }
+
+    /// Before, two tones of one octave were taken for two noises of one texture.
+    #[test]
+    fn two_tones_of_one_octave_are_two_signals() {
+        let tone = |hz: f64| -> Vec<f64> {
+            (0..8000).map(|i| (std::f64::consts::TAU * hz * f64::from(i) / RATE.0).sin()).collect()
+        };
+        for hz in [110.0, 125.0, 150.0] {
+            let agreement = of(&tone(100.0), &tone(hz));
+            assert!(agreement.spectra_db < 0.1 && agreement.spectra_gfc < 0.5, "{agreement:?}");
+            assert_eq!(agreement.relation(), Relation::Unrelated, "{hz} Hz");
+        }
+        assert!((of(&tone(100.0), &tone(100.0)).spectra_gfc - 1.0).abs() < 1e-12);
     }
 
     /// Equal parts of signal and noise have a correlation of 1/√2.

@@ -52,6 +52,7 @@ pub(super) fn check(plan: &SignalPlan, rendered: &[Rendered]) -> Option<SignalCh
         n: rendered.len(),
         seconds: plan.seconds,
         error_db_mean: mean(&of(|r| r.error_db)),
+        model_error_db_mean: mean(&of(|r| r.model_error_db)),
         mean_difference_db: mean(&differences),
         largest_difference_db: differences.iter().copied().fold(0.0, f64::max),
         from_model_db: mean(&of(|r| r.from_model_db)),

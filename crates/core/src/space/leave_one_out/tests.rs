@@ -190,6 +190,8 @@ fn signals_agree_with_models() {
     for summary in &measured.methods {
         let check = summary.signals.unwrap();
         assert!(check.n == 2 && check.mean_difference_db < 0.3, "{summary:?}");
+        let between = (check.error_db_mean - check.model_error_db_mean).abs();
+        assert!(between <= check.mean_difference_db + 1e-12, "{summary:?}");
         // Twice the random error, because spectra are not constant within a channel.
         assert!(check.from_model_db < 2.0 * check.chance_db, "{summary:?}");
     }

@@ -1,3 +1,4 @@
+use super::folds::{outside, repeated};
 use super::forward::{P_STOP, select};
 use super::parallel::{Thresholds, analyze, group_correlations};
 use super::standardized::Standardized;
@@ -6,8 +7,8 @@ use super::{
     Validation, all, fit_axis, most_features, paper_chain, validate,
 };
 use crate::maths::least_squares::least_squares;
-use crate::maths::rng::{Random, lcg_noise};
-use crate::maths::statistics::{centered, correlation, dot, f_upper_tail};
+use crate::maths::rng::{Random, derive_seed, lcg_noise};
+use crate::maths::statistics::{centered, correlation, dot, f_upper_tail, mean, standard_deviation};
 
 const PAPER: Method = Method::Paper(Order::Greedy);
 const QUICK: Scheme = Scheme { n_folds: 5, n_repeats: 1, n_permutations: 0, seed: 2 };
@@ -252,6 +253,44 @@ fn the_practical_method_predicts_new_textures_better_than_the_published_chain() 
     }
     // Measured figures are in the module doc of `ridge`. The margin is a third of the difference there.
     assert!(sums[0] > 0.85 && sums[0] > sums[1] + 0.1, "{sums:?}");
+}
+
+/// The oracle fits a model to the training textures of every fold, and computes a correlation for each repeat.
+#[test]
+fn the_deviation_of_the_nested_correlation_is_that_over_the_repeats() {
+    let (rows, target) = textures(&mut Random::new(12), 20, 15);
+    let table = FeatureMatrix::from_rows(&rows).unwrap();
+    let scheme = Scheme { n_permutations: 0, ..STANDARD };
+    let got = validate(&table, &target, Method::Practical, &scheme, &|| true).unwrap();
+    let folds = repeated(20, 5, 4, &mut Random::new(derive_seed(scheme.seed, "folds"))).unwrap();
+    let r = |folds: &[Vec<usize>]| {
+        let (mut from_means, mut targets) = (Vec::new(), Vec::new());
+        for fold in folds {
+            let known = outside(fold, 20);
+            let known_rows: Vec<Vec<f64>> = known.iter().map(|texture| rows[*texture].clone()).collect();
+            let known_target: Vec<f64> = known.iter().map(|texture| target[*texture]).collect();
+            let known_table = FeatureMatrix::from_rows(&known_rows).unwrap();
+            let model = fit_axis(&known_table, &known_target, Method::Practical).unwrap();
+            for texture in fold {
+                from_means.push(model.predict(&rows[*texture]).unwrap() - mean(&known_target));
+                targets.push(target[*texture] - mean(&known_target));
+            }
+        }
+        dot(&from_means, &targets) / (dot(&from_means, &from_means) * dot(&targets, &targets)).sqrt()
+    };
+    let by_repeat: Vec<f64> = folds.chunks(5).map(r).collect();
+    assert_eq!(by_repeat.len(), 4);
+    // The fits add in another order.
+    assert!((got.nested_cv_r - r(&folds)).abs() < 1e-9, "{got:?}");
+    assert!(
+        (got.nested_cv_r_deviation.unwrap() - standard_deviation(&by_repeat)).abs() < 1e-9,
+        "{by_repeat:?}"
+    );
+    // One assignment to folds has no deviation; leave-one-out has only one.
+    for scheme in [QUICK, Scheme { n_folds: 20, ..scheme }] {
+        let one = validate(&table, &target, Method::Practical, &scheme, &|| true).unwrap();
+        assert_eq!(one.nested_cv_r_deviation, None);
+    }
 }
 
 #[test]

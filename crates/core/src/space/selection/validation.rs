@@ -6,7 +6,7 @@ use super::folds::{outside, repeated};
 use super::standardized::Standardized;
 use super::{AxisModel, Choice, FeatureMatrix, Method, Prepared, SelectionError, all, table};
 use crate::maths::rng::{Random, derive_seed};
-use crate::maths::statistics::{correlation, mean, quantile};
+use crate::maths::statistics::{correlation, mean, quantile, standard_deviation};
 
 /// Cross-validation scheme and number of permutations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,10 @@ pub struct Validation {
     /// selected inside each fold. Both are relative to the mean of the training textures (see
     /// [`crate::space::selection`]). 0 if all predictions equal that mean.
     pub nested_cv_r: f64,
+    /// Standard deviation of the nested correlation over the repeats, each with its own random assignment of the textures
+    /// to folds. [`Validation::nested_cv_r`] pools the repeats, so another seed changes it by less. `None` with one
+    /// repeat.
+    pub nested_cv_r_deviation: Option<f64>,
     /// Plain correlation of the predictions in nested cross-validation with positions: same definition as
     /// [`Validation::cv_r`], for comparison with it. It is biased downwards if the predictions are close to the mean of
     /// the training textures (see [`crate::space::selection`]). 0 if all predictions equal that mean.
@@ -85,8 +89,10 @@ pub fn validate(
             .map(|_| random.shuffled(n).iter().map(|i| target[*i]).collect::<Vec<f64>>()),
     );
     let mut products = vec![FromMeans::default(); targets.len()];
+    // Each repeat has the same number of folds.
+    let mut repeats = vec![FromMeans::default(); folds.len() / scheme.n_folds];
     let (mut nested, mut flat) = (LeftOut::default(), LeftOut::default());
-    for fold in &folds {
+    for (fold_idx, fold) in folds.iter().enumerate() {
         let textures = outside(fold, n);
         let train = Standardized::new(features, &textures);
         let prepared = Prepared::new(&train, method);
@@ -111,6 +117,7 @@ pub fn validate(
         for (texture, target, predicted, center) in fits.collect::<Result<Vec<_>, _>>()?.concat() {
             nested.add(texture, target, predicted);
             flat.add(texture, target, center);
+            repeats[fold_idx / scheme.n_folds].add(predicted - center, target - center);
         }
     }
     let observed = products[0].r();
@@ -128,6 +135,7 @@ pub fn validate(
         cv_r: plain_r(&chosen),
         cv_rms_percent: chosen.rms_percent(),
         nested_cv_r: observed,
+        nested_cv_r_deviation: deviation(&repeats),
         nested_cv_plain_r: plain_r(&nested),
         nested_cv_rms_percent: nested.rms_percent(),
         mean_rms_percent: flat.rms_percent(),
@@ -136,6 +144,12 @@ pub fn validate(
         n_permutations: null.len(),
         predicted: nested.by_texture(n),
     })
+}
+
+/// Standard deviation of the correlations of the repeats; `None` with one repeat.
+fn deviation(repeats: &[FromMeans]) -> Option<f64> {
+    let correlations: Vec<f64> = repeats.iter().map(FromMeans::r).collect();
+    (correlations.len() > 1).then(|| standard_deviation(&correlations))
 }
 
 /// Cross-validation as published: features are selected once, on all textures.

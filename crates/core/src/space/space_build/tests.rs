@@ -15,8 +15,8 @@ use crate::people::ratings::{AdjectivePair, Rating, RelevanceVote};
 use crate::people::sorting::{Grouped, Sort};
 use crate::space::LabelSource;
 use crate::space::features::NamedTexture;
-use crate::space::space_build::validation_summary;
 use crate::space::space_build::warnings::of_scaling;
+use crate::space::space_build::{few_judges, validation_summary};
 use crate::texture::{GrainNode, TextureModel};
 use crate::units::{Hertz, MetersPerSecond, Newtons};
 
@@ -331,8 +331,12 @@ fn too_few_sorters_or_raters_give_no_stability() {
         assert_eq!(built.stability, None);
         let said = format!("{n_sorters} participants sorted and {n_raters} rated, but at least 3 of each");
         assert!(built.findings.iter().any(|finding| finding.contains(&said)), "{:?}", built.findings);
+        let summary = validation_summary(&built).join("\n");
+        let few = if n_sorters < 3 { format!("({n_sorters} sorted)") } else { format!("({n_raters} rated)") };
+        assert!(summary.contains(&format!("Few participants {few}")), "{summary}");
     }
     assert!(build(parted(4, 4), &options).unwrap().stability.is_some());
+    assert_eq!(few_judges(&build(parted(8, 8), &options).unwrap()), None);
     let none = SpaceOptions { n_draws: 0, ..options };
     let built = build(parted(1, 8), &none).unwrap();
     assert!(built.stability.is_none() && !built.findings.join(" ").contains("of each are needed"));

@@ -25,6 +25,9 @@ const CHANCE: f64 = 0.05;
 /// Minimum number of sorters; with fewer, the perceptual space depends mostly on chance.
 pub(super) const MIN_SORTERS: usize = 5;
 
+/// Minimum number of raters; with fewer, a standard error has less than four degrees of freedom.
+pub(super) const MIN_RATERS: usize = 5;
+
 /// Kruskal's (1964) word for a stress-1 value. He gives words for 0, 0.025, 0.05, 0.1 and 0.2; the boundaries here lie
 /// halfway between these values.
 pub fn kruskal_word(stress: f64) -> &'static str {
@@ -51,6 +54,7 @@ pub fn validation_summary(build: &SpaceBuild) -> Vec<String> {
         build.source.label(),
         if build.source == LabelSource::SimulatedRaters { "; no person felt the textures" } else { "" }
     )];
+    said.extend(few_judges(build).map(|few| format!("{few}.")));
     match &build.perceptual {
         Some(space) => said.extend([stress(build, space), angle(build, space)]),
         None => said.extend([ratings_alone(build), correlation(build)]),
@@ -64,6 +68,24 @@ pub fn validation_summary(build: &SpaceBuild) -> Vec<String> {
     said.extend(errors(build));
     said.extend(build.axes.iter().map(|axis| place(build, axis)));
     said
+}
+
+/// Warning that the judgments come from few participants, so that every result depends on who took part; `None` from five
+/// sorters and raters on. It belongs beside every figure.
+pub fn few_judges(build: &SpaceBuild) -> Option<String> {
+    let n_raters = build.raters.len();
+    let mut few = Vec::new();
+    if let Some(space) = &build.perceptual {
+        let n_sorters = space.similarity.agreements.len();
+        few.extend((n_sorters < MIN_SORTERS).then(|| format!("{n_sorters} sorted")));
+    }
+    few.extend((n_raters < MIN_RATERS).then(|| format!("{n_raters} rated")));
+    (!few.is_empty()).then(|| {
+        format!(
+            "Few participants ({}): correlations and p-values describe these people alone. Ten are usual",
+            few.join(", ")
+        )
+    })
 }
 
 /// Kruskal's word for the stress of a perceptual space; `None` if it does not apply: to a degenerate solution, to
@@ -196,7 +218,7 @@ fn place(build: &SpaceBuild, axis: &Axis) -> String {
         (true, Some(r)) => {
             let side = if axis.placed_by == PlacedBy::Predicted { "at least" } else { "below" };
             format!(
-                ", because the nested correlation of the prediction, {r:.3}, is {side} {TRUSTED_NESTED_R}"
+                ", because the nested correlation of the prediction, {r:.3}, is {side} {TRUSTED_NESTED_R}, a rule of thumb"
             )
         }
     };
@@ -235,7 +257,12 @@ fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
         |agreement| {
             let icc = agreement.average.value;
             let poor = if icc < POOR_ICC { ", poor" } else { "" };
-            format!("inter-rater agreement (ICC of the mean rating) {icc:.2}{poor}")
+            format!(
+                "inter-rater agreement (ICC of the mean rating) {icc:.2}{poor}, from {} and {} with complete ratings{}",
+                counted(agreement.participants.len(), "rater"),
+                counted(agreement.textures.len(), "texture"),
+                incomplete(build, agreement)
+            )
         },
     );
     let luck = if line.p_value >= CHANCE {
@@ -250,6 +277,15 @@ fn line(build: &SpaceBuild, axis: &Axis) -> Option<String> {
         "{}: R² of the ratings in the perceptual space {:.2}{weak}{luck}; {agreement}.",
         axis.pair, line.r_squared
     ))
+}
+
+/// Half of a sentence if an agreement comes from a part of the ratings: those means have other reliabilities.
+fn incomplete(build: &SpaceBuild, agreement: &Agreement) -> String {
+    let all = [build.raters.len(), build.textures.len()];
+    if agreement.participants.len() >= all[0] && agreement.textures.len() >= all[1] {
+        return String::new();
+    }
+    format!(" of {} and {}; it does not apply to means over other numbers of raters", all[0], all[1])
 }
 
 /// Agreement of the raters on an axis, with intervals.
@@ -305,8 +341,14 @@ fn prediction(axis: &Axis) -> Option<String> {
             format!("p = {p:.3} from {} permutations{luck}", v.n_permutations)
         },
     );
+    let spread = v.nested_cv_r_deviation.map_or_else(String::new, |deviation| {
+        format!(
+            "standard deviation {deviation:.2} over {} assignments of the textures to folds; ",
+            v.scheme.n_repeats
+        )
+    });
     Some(format!(
-        "{}: predicted from {}; nested correlation {:.2} ({chance}). In nested cross-validation, the range-normalized accuracy is {:.1} % (predicting the mean gives {:.1} %) and the plain correlation {:.2}. With features selected on all textures, as usually published and biased upwards, the plain correlation is {:.2} and the accuracy {:.1} %.",
+        "{}: predicted from {}; nested correlation {:.2} ({spread}{chance}). In nested cross-validation, the range-normalized accuracy is {:.1} % (predicting the mean gives {:.1} %) and the plain correlation {:.2}. With features selected on all textures, as usually published and biased upwards, the plain correlation is {:.2} and the accuracy {:.1} %.",
         axis.pair,
         counted(prediction.features.len(), "feature"),
         v.nested_cv_r,

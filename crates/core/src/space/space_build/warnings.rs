@@ -8,7 +8,7 @@ use crate::people::sorting::{Finding, Similarity, Sort};
 use crate::space::SpacePoint;
 use crate::space::selection::MIN_TEXTURES;
 use crate::space::space_build::axis_choice::{RELIABLE_ALPHA, is_reliable};
-use crate::space::space_build::validation::{DEPENDENT_R, MIN_SORTERS, least_textures};
+use crate::space::space_build::validation::{DEPENDENT_R, MIN_RATERS, MIN_SORTERS, least_textures};
 use crate::space::space_build::{Adjective, Axis, DegenerateScaling, SpaceData, SpaceOptions};
 use crate::words::{counted, listed};
 
@@ -20,9 +20,6 @@ const ONE_LINE_DEGREES: f64 = 20.0;
 
 /// Distance, in points of 100, below which two textures count as coincident.
 const COINCIDENT: f64 = 0.5;
-
-/// Minimum number of raters; with fewer, a standard error has less than four degrees of freedom.
-const MIN_RATERS: usize = 5;
 
 /// Minimum median distance relative to the largest distance; a smaller value indicates a collapsed space.
 const COLLAPSED: f64 = 0.05;

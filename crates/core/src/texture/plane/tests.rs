@@ -232,7 +232,9 @@ proptest! {
     }
 }
 
+mod closed;
 mod direction;
 mod fade;
+mod hull_edges;
 mod published;
 mod radial;

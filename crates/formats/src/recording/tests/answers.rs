@@ -1,7 +1,7 @@
 //! Questions and guesses.
 
 use super::{map, open, read};
-use crate::recording::{AccelerationUnit, Ask, ColumnMap, read_recording};
+use crate::recording::{AccelerationUnit, Ask, ColumnMap, TimeUnit, read_recording};
 use shagreen_core::recording::RawTrack;
 
 #[test]
@@ -50,4 +50,38 @@ fn the_later_of_a_constant_and_a_column_counts() {
     assert!(both.constant_speed.is_none() && both.speed.is_some());
     assert!(both.constant_force.is_some() && both.force.is_none());
     assert!(map(&[(Ask::Speed, "1 m/s"), (Ask::Positions, "x")]).constant_speed.is_none());
+}
+
+#[test]
+fn a_table_without_a_time_column_names_the_columns_that_it_may_be() {
+    let text =
+        "Zeit (ms),acc [g],note,speed (mm/s),force (N)\n0,1,7,100,1\n1,2,7,100,1\n2,1,7,100,1\n3,2,7,100,1\n";
+    let message =
+        read_recording("eu.csv", text.as_bytes(), None, &ColumnMap::default()).unwrap_err().to_string();
+    assert!(message.contains("there is no time column") && message.contains("state it in Hz"), "{message}");
+    assert!(
+        message.contains("time=\"Zeit (ms)\" (columns of unknown meaning: \"Zeit (ms)\", \"note\")"),
+        "{message}"
+    );
+    // Its unit is in its name, so it is not guessed.
+    let file = read(text, &[(Ask::Time, "Zeit (ms)")]);
+    assert!(file.questions.is_empty(), "{:?}", file.questions);
+    assert_eq!(file.map.time_unit, Some(TimeUnit::Milliseconds));
+    // A table whose columns all have a meaning has no other candidates.
+    let text = "acc [g],speed (mm/s),force (N)\n1,100,1\n2,100,1\n";
+    let message =
+        read_recording("a.csv", text.as_bytes(), None, &ColumnMap::default()).unwrap_err().to_string();
+    assert!(message.contains("state it in Hz") && !message.contains("unknown meaning"), "{message}");
+}
+
+#[test]
+fn a_file_without_rows_is_called_empty() {
+    for (text, words) in [
+        ("", "the file is empty"),
+        ("\n  \n", "the file is empty"),
+        ("t_s,acc_g,speed_mm/s,force_N\n", "the table has a header, but no rows of numbers"),
+    ] {
+        let error = read_recording("a.csv", text.as_bytes(), None, &ColumnMap::default()).unwrap_err();
+        assert!(error.to_string().starts_with(words), "{error}");
+    }
 }

@@ -8,6 +8,8 @@ const SAME_PLACE: f32 = 5.0;
 const ASIDE: f32 = 19.0;
 /// Number of points around one position.
 const IN_A_RING: usize = 6;
+/// Number of rings. Further points hide each other: the farther a point is drawn from its position, the more it misleads.
+const MOST_RINGS: usize = 2;
 
 /// Positions at which the authored points are drawn: the first point at a position there, later ones around it. They do not
 /// depend on the selection, so that a point that is selected by a click stays under the pointer.
@@ -22,12 +24,12 @@ pub(super) fn fanned(places: &[Pos2]) -> Vec<Pos2> {
 fn aside(n: usize) -> Vec2 {
     let Some(n) = n.checked_sub(1) else { return Vec2::ZERO };
     let angle = std::f32::consts::TAU * ((n % IN_A_RING) as f32 / IN_A_RING as f32 - 0.125);
-    ASIDE * (1 + n / IN_A_RING) as f32 * Vec2::angled(angle)
+    ASIDE * (1 + n / IN_A_RING).min(MOST_RINGS) as f32 * Vec2::angled(angle)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{SAME_PLACE, fanned};
+    use super::{ASIDE, SAME_PLACE, fanned};
     use egui::pos2;
 
     #[test]
@@ -39,6 +41,9 @@ mod tests {
         for (i, a) in all.iter().enumerate() {
             assert!(all[i + 1..].iter().all(|b| a.distance(*b) > 2.0 * SAME_PLACE), "{all:?}");
         }
+        let many = fanned(&[places[0]; 40]);
+        let farthest = many.iter().map(|at| at.distance(places[0])).fold(0.0, f32::max);
+        assert!(farthest <= 2.01 * ASIDE, "{farthest}");
         // A point that is added or dragged away moves none before it.
         assert_eq!(fanned(&places[..4]), all[..4]);
         places[8] = pos2(200.0, 50.0);

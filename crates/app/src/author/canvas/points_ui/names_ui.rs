@@ -5,6 +5,7 @@ use std::sync::Arc;
 use egui::{FontId, Pos2, Rect, Ui, Vec2, vec2};
 
 use crate::author::canvas::point_id;
+use crate::author::whole_space::own_textures;
 use crate::look::label_places::{Placed, Wish, label_places};
 use crate::look::theme::Tokens;
 use crate::panel::Panel;
@@ -29,6 +30,14 @@ pub(super) fn names_ui(
         let is_pointed = response.is_some_and(|response| response.hovered() || response.has_focus());
         let is_selected = index == panel.project.selected && is_selected_named;
         if ui.ctx().is_being_dragged(id) || !(is_pointed || is_selected) {
+            continue;
+        }
+        // The texture generated for it lies below it and has the same name.
+        let is_same = |own: &usize| {
+            panel.session.position(*own) == Some(texture.at)
+                && panel.session.textures()[*own].name == texture.name
+        };
+        if is_selected && !is_pointed && own_textures(panel, texture).iter().any(is_same) {
             continue;
         }
         let galley = ui.painter().layout_no_wrap(texture.name.clone(), FontId::proportional(SIZE), t.text);

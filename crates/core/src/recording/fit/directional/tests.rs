@@ -111,6 +111,12 @@ fn check_lay(across_deg: f64, along_db: f64, directions_deg: &[f64]) {
     assert!(off_deg < 10.0, "the lay is off by {off_deg}°");
     let turned_rad = (model.turn_rad() + 0.5 * PI - lay_rad).sin().abs();
     assert!(turned_rad < 1e-9, "the texture lies as it was measured");
+    let mut axes_deg: Vec<i64> =
+        directions_deg.iter().map(|deg| deg.rem_euclid(180.0).round() as i64).collect();
+    axes_deg.sort_unstable();
+    axes_deg.dedup();
+    let is_assumed = report.notes.iter().any(|note| note.contains("assumed to lie along one of them"));
+    assert_eq!(is_assumed, axes_deg.len() == 2, "{:?}", report.notes);
     let modulation_db = report.modulation_db.unwrap();
     assert!((modulation_db + along_db).abs() < 1.0, "{modulation_db} dB, expected {}", -along_db);
     assert!(report.chance_db.unwrap() < 1.0, "{:?}", report.chance_db);
