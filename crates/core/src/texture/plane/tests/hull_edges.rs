@@ -30,11 +30,12 @@ fn between_the_lowest_nodes_the_level_is_interpolated_from_them() {
             let [speed_mps, force_n] = [mean(from[0], to[0]), mean(from[1], to[1])];
             let expected = mean(ends[0], ends[1]);
             let got = level(&plane, speed_mps, force_n);
-            // An edge is bisected until the level is at most 5 % too low at three points.
-            assert!((got / expected - 1.0).abs() < 0.07, "{got} for {expected} at {speed_mps}, {force_n}");
+            // An edge is bisected until the level is at most 5 % too low at three points. Above, it may be up to 1 dB off.
+            let is_near = |level: f64| (-0.07..0.12).contains(&(level / expected - 1.0));
+            assert!(is_near(got), "{got} for {expected} at {speed_mps}, {force_n}");
             let contact = SynthContact { speed_mps: speed_mps as f32, force_n: force_n as f32 };
             let played = prepared.view().evaluate(contact, Direction::UNKNOWN, &mut [0; 2]).level_mps2;
-            assert!((f64::from(played) / expected - 1.0).abs() < 0.07, "{played} for {expected}");
+            assert!(is_near(f64::from(played)), "{played} for {expected}");
         }
     };
     for speeds in SPEEDS_MPS.windows(2) {
