@@ -161,6 +161,6 @@ mod tests {
         fails("time,force\n0,0.2\n0.1,0.2\n", Quantity::Position, &["no column of position", "\"force\""]);
         fails("X,Y\n3,0.2\n1,0.2\n", Quantity::Position, &["no time"]);
         fails("time,a1,b2,c3\n0,1,2,3\n1,1,2,3\n", Quantity::Force, &["no column of force"]);
-        fails("", Quantity::Force, &["no rows"]);
+        fails("", Quantity::Force, &["the file is empty"]);
     }
 }
