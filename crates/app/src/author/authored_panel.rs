@@ -103,7 +103,9 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
     } else {
         let mut name = ui.new_child(egui::UiBuilder::new().max_rect(room));
         let shown = if texture.name.trim().is_empty() { words::UNNAMED } else { &texture.name };
-        name.add(Label::new(RichText::new(shown).color(color)).truncate().selectable(false));
+        let label = Label::new(RichText::new(shown).color(color)).truncate().selectable(false);
+        // The tooltip of the row has the whole name.
+        name.add(label.show_tooltip_when_elided(false));
     }
     if response.clicked() {
         commands.push(Command::Edit(Edit::Select(texture.key)));

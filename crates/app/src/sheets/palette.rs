@@ -46,10 +46,12 @@ impl PaletteSheet {
                 .desired_width(f32::INFINITY)
                 .id(id);
             // Before the field is drawn, so that it takes the letters of its first frame.
-            if !std::mem::replace(&mut self.is_focused, true) {
+            if !self.is_focused {
                 ui.memory_mut(|memory| memory.request_focus(id));
             }
             let field = ui.add(field).accessible_name(strings::FIND_COMMAND);
+            // In the frame in which its size is measured, the field cannot have the focus.
+            self.is_focused |= field.enabled() && field.has_focus();
             if field.changed() {
                 self.selected = 0;
             }

@@ -182,7 +182,8 @@ fn the_card_of_a_prompt_moves_nothing() {
     assert_eq!(canvas(&harness), before);
     assert!(says(&harness, "Temperature is not rendered"));
     let name = window(&harness).project().texture().name.clone();
-    let near: Vec<String> = shown(&harness).into_iter().filter(|text| text.starts_with("near ")).collect();
+    let near: Vec<String> =
+        shown(&harness).iter().filter_map(|text| Some(text.split_once(" · near ")?.1.to_owned())).collect();
     assert!(near.len() == 1 && !near[0].contains(&name), "{near:?}");
     let texture = project(&harness);
     let close = center(&harness, prompt::DISMISS);

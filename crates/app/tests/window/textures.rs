@@ -163,7 +163,8 @@ fn a_texture_is_renamed_in_one_step() {
     let mut harness = author();
     take(&mut harness, "Glass", words::RENAME);
     assert!(harness.get_by_role_and_label(Role::TextInput, words::NAME).is_focused());
-    for letters in [" p", "a", "ne"] {
+    // The old name is selected, so that typing replaces it.
+    for letters in ["Glass", " pa", "ne"] {
         harness.get_by_role_and_label(Role::TextInput, words::NAME).type_text(letters);
         harness.run_steps(2);
     }
