@@ -78,6 +78,18 @@ pub fn open_to_lock(path: &Path) -> io::Result<File> {
     open_with(OpenOptions::new().read(true).write(true), path).or_else(|_| open(path))
 }
 
+/// Opens a folder to lock it. Nothing is read from it.
+///
+/// # Errors
+/// The folder does not exist or cannot be opened; on Windows, no folder can.
+pub fn open_folder_to_lock(path: &Path) -> io::Result<File> {
+    let folder = File::open(path)?;
+    if folder.metadata()?.is_dir() {
+        return Ok(folder);
+    }
+    Err(io::Error::new(ErrorKind::NotADirectory, "it is a file, not a folder"))
+}
+
 fn open_with(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
     // Before opening, because Windows reports a folder as one without permission.
     check(&std::fs::metadata(path)?)?;

@@ -62,7 +62,7 @@ fn lock(path: &Path) -> io::Result<Option<File>> {
 /// Locks the folder of `path`; `None` where that is impossible.
 fn lock_folder(path: &Path) -> Option<File> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let folder = File::open(folder).ok().filter(|_| cfg!(unix))?;
+    let folder = bounded_file::open_folder_to_lock(folder).ok().filter(|_| cfg!(unix))?;
     folder.lock().ok()?;
     Some(folder)
 }

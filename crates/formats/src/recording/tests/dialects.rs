@@ -60,7 +60,7 @@ fn the_same_recording_in_every_dialect() {
 #[test]
 fn damage_is_named_with_its_place() {
     for (text, words) in [
-        ("", "no rows"),
+        ("", "the file is empty"),
         ("t,a\n", "no rows"),
         ("t,a\n0,1\n1,2,3\n", "3 values where the table has 2 columns in line 3"),
         ("t,Fx,Fy,Fz,Ft\n0,1,2,3,4\n0.1,1,2,3,4\n", "no acceleration: the columns are \"t\", \"Fx\""),
