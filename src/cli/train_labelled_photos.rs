@@ -51,7 +51,7 @@ pub(crate) struct LabelledArgs {
     head_weights: HeadWeights,
     /// Contribution of the class probabilities to the roughness, 0 to 1. The rest is that of the heads trained on drawn
     /// materials.
-    #[arg(long, value_name = "SHARE", default_value_t = 0.5, requires = "photos")]
+    #[arg(long, value_name = "SHARE", default_value_t = 0.7, requires = "photos")]
     roughness_of_classes: f64,
     /// Penalty of the ridge regression, for each row of features; above 0.
     #[arg(long, value_name = "P", default_value_t = 1.28, requires = "photos")]
@@ -60,7 +60,7 @@ pub(crate) struct LabelledArgs {
     #[arg(long, value_name = "P", default_value_t = 0.01, requires = "photos")]
     class_penalty: f64,
     /// Number of small networks.
-    #[arg(long, value_name = "N", default_value_t = 2, requires = "photos", value_parser = clap::value_parser!(u32).range(1..=16))]
+    #[arg(long, value_name = "N", default_value_t = 3, requires = "photos", value_parser = clap::value_parser!(u32).range(1..=16))]
     networks: u32,
     /// Number of epochs of each small network.
     #[arg(long, value_name = "N", default_value_t = 20, requires = "photos", value_parser = clap::value_parser!(u32).range(1..=10_000))]
@@ -73,7 +73,7 @@ pub(crate) struct LabelledArgs {
     #[arg(long, value_name = "N", default_value_t = 8, requires = "photos", value_parser = clap::value_parser!(u32).range(2..=1000))]
     source_folds: u32,
     /// Photos on whose errors the standard deviations are scaled.
-    #[arg(long, value_enum, default_value_t = CalibrateOn::Both, requires = "photos")]
+    #[arg(long, value_enum, default_value_t = CalibrateOn::Classes, requires = "photos")]
     calibrate_on: CalibrateOn,
 }
 

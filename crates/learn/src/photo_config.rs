@@ -91,11 +91,11 @@ impl PhotoConfig {
                 learning_rate: 1e-3,
                 n_epochs: 20,
                 n_batch: 128,
-                n_networks: 2,
+                n_networks: 3,
             },
             hardness: HeadWeights { ridge: 1.0, classes: 1.0, network: 1.0 },
-            roughness_of_classes: 0.5,
-            calibration: Calibration::Both,
+            roughness_of_classes: 0.7,
+            calibration: Calibration::Classes,
             seed,
         }
     }

@@ -197,7 +197,7 @@ fn a_texture_under_the_pointer_is_seen_and_heard() {
     let cork = window(&harness).session().textures().iter().position(|texture| texture.id == "cork").unwrap();
     harness.hover_at(area(&harness, &strings::play_texture("Cork")).center());
     wait(&mut harness, "it plays alone", |h| window(h).session().shown_parents() == [(cork, 1.0)]);
-    assert!(window(&harness).session().hand_is_running());
+    wait(&mut harness, "it is stroked", |h| window(h).session().hand_is_running());
     let picture = window(&harness).pictures().thumbnail(cork).unwrap().id();
     let is_large = |shape: &Shape| match shape {
         Shape::Rect(rect) => {
