@@ -217,7 +217,7 @@ fn material_class(class: &PhotoClass) -> anyhow::Result<MaterialClass> {
 
 #[cfg(test)]
 mod tests {
-    use super::{PhotoClass, PhotoFiles, material_class, part_of};
+    use super::{PhotoClass, PhotoFiles, built_in_lexicon, material_class, part_of};
     use shagreen_formats::picture::{Rgb, encode_png};
     use std::path::Path;
 
@@ -284,7 +284,7 @@ mod tests {
         assert!(brick.rough_smooth < 20.0 && brick.rough_smooth_sd < 15.0, "{brick:?}");
         assert_eq!((brick.hard_soft, brick.hard_soft_sd), (9.0, 7.0));
         // The entry that stands for the class, not the word in its name.
-        let lexicon = shagreen_formats::lexicon_toml::built_in_lexicon().unwrap();
+        let lexicon = built_in_lexicon().unwrap();
         let plush = lexicon.material("plush").unwrap().1[0].unwrap();
         assert_eq!(
             (class("plush").rough_smooth, class("plush").rough_smooth_sd),

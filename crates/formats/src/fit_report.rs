@@ -117,8 +117,7 @@ fn summary(report: &FitReport) -> String {
         report.segments.len(),
         report.rate.0,
         report.order,
-        // Added, so that nothing reads "-0 %".
-        100.0 * report.coverage + 0.0,
+        100.0 * report.coverage,
         if report.held_out { "held-out segments" } else { "training segments, none held out" },
         report.gfc_median(),
         report.level_error_db_median(),

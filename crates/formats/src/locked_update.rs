@@ -61,8 +61,11 @@ fn lock(path: &Path) -> io::Result<Option<File>> {
 
 /// Locks the folder of `path`; `None` where that is impossible.
 fn lock_folder(path: &Path) -> Option<File> {
+    if !cfg!(unix) {
+        return None;
+    }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let folder = bounded_file::open_folder_to_lock(folder).ok().filter(|_| cfg!(unix))?;
+    let folder = bounded_file::open_folder_to_lock(folder).ok()?;
     folder.lock().ok()?;
     Some(folder)
 }

@@ -174,8 +174,7 @@ pub fn fit_in_words(report: &FitReport) -> String {
     format!(
         "{} segments, coverage {:.0} %; GFC {:.3} and level error {:.2} dB (medians, {})",
         report.segments.len(),
-        // Without the sign of a negative zero.
-        100.0 * report.coverage + 0.0,
+        100.0 * report.coverage,
         report.gfc_median(),
         report.level_error_db_median(),
         if report.held_out { "held-out" } else { "not held-out" }

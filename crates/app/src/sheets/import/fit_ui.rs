@@ -131,7 +131,7 @@ fn figures_ui(ui: &mut Ui, report: &FitReport) {
             strings::LEVEL_ERROR_HELP,
         ),
         (strings::N_SEGMENTS, report.segments.len().to_string(), ""),
-        (strings::COVERAGE, format!("{:.0} %", 100.0 * report.coverage + 0.0), strings::COVERAGE_HELP),
+        (strings::COVERAGE, format!("{:.0} %", 100.0 * report.coverage), strings::COVERAGE_HELP),
         (strings::MODEL_RATE, strings::rate(report.rate.0), strings::RATE_HELP),
         (strings::MODEL_ORDER, report.order.to_string(), strings::ORDER_HELP),
         (strings::TAP, tap, strings::TAP_HELP),
