@@ -1,5 +1,5 @@
 //! Benchmark of texture interpolation: cost of one drag step per mode, with 25 and 1,000 textures, up to a renderable
-//! texture.
+//! texture; on two and on five axes.
 #![allow(
     clippy::expect_used,
     clippy::print_stdout,
@@ -26,7 +26,7 @@ use shagreen_formats::starter::starter_library;
 
 fn main() {
     for n in [25, 1000] {
-        let authoring = authoring(n);
+        let authoring = authoring(n, 2);
         let cases = [
             ("field", Blending::from(Mode::Field)),
             ("field, extrapolated", Blending { outside: Outside::Extrapolated, ..Mode::Field.into() }),
@@ -49,6 +49,18 @@ fn main() {
             }
         });
     }
+    for n in [25, 1000] {
+        let authoring = authoring(n, 5);
+        for (name, outside) in [("field", Outside::Clamped), ("field, extrapolated", Outside::Extrapolated)] {
+            let drags = if n > 25 { 300 } else { 3000 };
+            let blending = Blending { outside, ..Mode::Field.into() };
+            bench(&format!("re-blend, {n} textures on five axes, {name}"), f64::from(drags), "drag", || {
+                for i in 0..drags {
+                    black_box(authoring.author(dragged_on_five(i), &blending));
+                }
+            });
+        }
+    }
     let authoring = with_height_maps();
     bench(
         "re-blend with two height maps and prepare for rendering, 25 textures, field",
@@ -70,11 +82,19 @@ fn model(authored: &Authored) -> &TextureModel {
 /// A point on a path through the whole square, corners included.
 fn dragged(i: u32) -> SpacePoint {
     let t = f64::from(i) * 1e-2;
-    SpacePoint { rough_smooth: 50.0 + 49.0 * (1.9 * t).sin(), hard_soft: 50.0 + 49.0 * (3.0 * t).cos() }
+    SpacePoint::plane(50.0 + 49.0 * (1.9 * t).sin(), 50.0 + 49.0 * (3.0 * t).cos())
 }
 
-/// The starter library, followed by modified copies of its textures at random positions, all different.
-fn authoring(n: usize) -> Authoring {
+/// A point on a path through the whole cube of five dimensions, corners included.
+fn dragged_on_five(i: u32) -> SpacePoint {
+    let t = f64::from(i) * 1e-2;
+    let coordinates = [1.9, 3.0, 2.3, 0.7, 1.3].map(|rate: f64| 50.0 + 49.0 * (rate * t + rate).sin());
+    SpacePoint::of(&coordinates).expect("no point")
+}
+
+/// The starter library, followed by modified copies of its textures at random positions, all different. The textures have
+/// random coordinates on axes beyond the second.
+fn authoring(n: usize, n_axes: usize) -> Authoring {
     let library = starter_library().expect("no starter library");
     let mut random = Random::new(7);
     let models: Vec<TextureModel> = (0..n)
@@ -83,9 +103,16 @@ fn authoring(n: usize) -> Authoring {
             if i < library.textures.len() { model.clone() } else { changed(model, &mut random) }
         })
         .collect();
-    let place = |i: usize| match library.textures.get(i) {
-        Some(texture) => texture.at(),
-        None => SpacePoint::new(100.0 * random.uniform(), 100.0 * random.uniform()).ok(),
+    let place = |i: usize| {
+        let mut at = match library.textures.get(i) {
+            Some(texture) => texture.at()?,
+            None => SpacePoint::new(100.0 * random.uniform(), 100.0 * random.uniform()).ok()?,
+        };
+        at = at.on(n_axes);
+        for axis in 2..n_axes {
+            at = at.with(axis, 100.0 * random.uniform());
+        }
+        Some(at)
     };
     authoring_of(&models, &(0..n).map(place).collect::<Vec<_>>())
 }

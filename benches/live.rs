@@ -198,7 +198,7 @@ fn callback(library: &Library) {
         library.textures.iter().zip(&planes).map(|(t, plane)| Some(Layers::of(&t.model, plane))).collect();
     let models = Models::new(&space, &layers).expect("textures differ in rate");
     let authoring = Authoring::new(space).with_models(Arc::new(models));
-    let point = SpacePoint { rough_smooth: 40.0, hard_soft: 60.0 };
+    let point = SpacePoint::plane(40.0, 60.0);
     let authored = authoring.author(point, &Mode::Field.into()).expect("no texture");
     let texture = Plane::new(&authored.model.expect("no model")).prepare();
     let (mut handle, mut engine) = playing(&texture);
@@ -303,10 +303,7 @@ fn reblending(library: &Library, planes: &[Plane]) {
     bench("re-blend after a drag: parents, weights, mix", f64::from(n_drags), "drag", || {
         for i in 0..n_drags {
             let t = f64::from(i) * 1e-3;
-            let point = SpacePoint {
-                rough_smooth: 50.0 + 45.0 * (1.9 * t).sin(),
-                hard_soft: 50.0 + 45.0 * (3.0 * t).cos(),
-            };
+            let point = SpacePoint::plane(50.0 + 45.0 * (1.9 * t).sin(), 50.0 + 45.0 * (3.0 * t).cos());
             let authored = authoring.author(point, &Mode::Shared.into()).expect("no texture");
             let mut mix = Mix::silent(Blend::Power);
             for ((texture, weight), parent) in authored.parents.iter().zip(&mut mix.parents) {

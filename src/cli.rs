@@ -7,6 +7,8 @@ mod actuator_acf;
 mod actuator_list;
 mod actuator_show;
 mod actuator_source;
+mod axes_args;
+mod axis_name;
 mod backbone_source;
 mod blending;
 mod calibrate;
@@ -23,6 +25,7 @@ mod devices_pens;
 mod drawn_pictures;
 mod drawn_touches;
 mod evaluate;
+mod evaluate_axes;
 mod evaluate_codec;
 mod export;
 mod fit_args;
@@ -53,6 +56,7 @@ mod motion;
 mod output;
 mod own_folder;
 mod play;
+mod point;
 mod predict_attributes;
 mod prediction_figures;
 mod profile_source;
@@ -237,6 +241,7 @@ enum SpaceCommand {
 
 #[derive(clap::Subcommand)]
 enum EvaluateCommand {
+    Axes(evaluate_axes::Args),
     LeaveOneOut(evaluate::Args),
     Codec(evaluate_codec::Args),
 }
@@ -287,6 +292,7 @@ pub(crate) fn run(open_window: OpenWindow) -> ExitCode {
         Some(Command::Space(SpaceCommand::Questionnaire(args))) => space_questionnaire::run(args),
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
         Some(Command::Evaluate(EvaluateCommand::LeaveOneOut(args))) => evaluate::run(args),
+        Some(Command::Evaluate(EvaluateCommand::Axes(args))) => evaluate_axes::run(args),
         Some(Command::Texture(TextureCommand::Path(args))) => texture_path::run(args),
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Play(args)) => play::run(args),

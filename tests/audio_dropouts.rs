@@ -360,7 +360,7 @@ fn swap_textures(handle: &mut Handle, secs: f64) -> u64 {
         let due = Duration::from_millis(20 * n_swaps);
         std::thread::sleep(due.saturating_sub(begun.elapsed()));
         let t = begun.elapsed().as_secs_f64();
-        let point = SpacePoint { rough_smooth: 50.0 + 20.0 * t.sin(), hard_soft: 50.0 + 20.0 * t.cos() };
+        let point = SpacePoint::plane(50.0 + 20.0 * t.sin(), 50.0 + 20.0 * t.cos());
         let model = authoring.author(point, &Mode::Field.into()).unwrap().model.unwrap();
         let texture = OwnedTexture::new(Plane::new(&model).prepare().parts()).unwrap();
         handle.collect();

@@ -15,7 +15,7 @@ pub(crate) struct BlendArgs {
     /// Interpolation mode. field: one texture from a smooth field over all textures. parametric: one texture with the
     /// mean spectral envelope and level of the surrounding textures. The other modes mix the signals of three textures.
     /// shared: all driven by the same noise. power: independent noise, level corrected to the mean. paper: as published
-    /// by Hassan, Abdulali and Jeon (2020).
+    /// by Hassan, Abdulali and Jeon (2020). A space with more than two axes needs field.
     #[arg(long, value_name = "MODE", value_parser = words(Mode::ALL, Mode::id), default_value = Mode::default().id())]
     blend: Mode,
     /// Use natural-neighbor (Sibson) weights instead of barycentric weights; only with --blend parametric.
@@ -54,7 +54,7 @@ impl BlendArgs {
             outside: if self.extrapolate { Outside::Extrapolated } else { Outside::default() },
             locked: self.lock.iter().map(index).collect::<anyhow::Result<_>>()?,
         };
-        blending.check()?;
+        blending.check_in(library.axis_names().len())?;
         warn_of_hidden_locks(library, &blending.locked);
         Ok(blending)
     }

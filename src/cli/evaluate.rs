@@ -7,15 +7,18 @@ use shagreen_core::space::authoring::Blending;
 use shagreen_core::space::leave_one_out::{
     LeaveOneOut, LeaveOneOutError, Method, Plan, SignalPlan, Summary, leave_one_out,
 };
+use shagreen_core::space::signal_axes::SignalAxis;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::words::counted;
+use shagreen_formats::axes_report::SIGNAL_AXES_NOTE;
 use shagreen_formats::evaluation_report::{
     TABLE, best, evaluation_figures, evaluation_report, evaluation_source, figure_name, method_id,
     position_caveat,
 };
 use shagreen_formats::library::Library;
 
+use crate::cli::axes_args::AxesArgs;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
 use crate::cli::progress::Progress;
@@ -27,9 +30,10 @@ use shagreen_studio::file;
 /// Removes each texture in turn, interpolates a texture at its position from the others, and compares the spectra of
 /// the two.
 ///
-/// Only textures strictly inside the convex hull of the others are evaluated. Spectra are compared at nine combinations
-/// of speed and force, in 40 frequency channels (20 to 480 Hz). The baseline is a copy of the nearest texture;
-/// interpolation should have a lower error. The errors are computed from signals, not from human ratings.
+/// Only textures strictly inside the convex hull of the others are evaluated. With more than two axes (--axes) nearly all
+/// textures lie on the hull, so all are evaluated. Spectra are compared at nine combinations of speed and force, in 40
+/// frequency channels (20 to 480 Hz). The baseline is a copy of the nearest texture; interpolation should have a lower
+/// error. The errors are computed from signals, not from human ratings.
 ///
 /// If positions were computed from the textures themselves (physical labels, estimates), the position of a left-out
 /// texture contains part of its answer. The shape error excludes the overall level: it compares the shape of the
@@ -38,7 +42,9 @@ use shagreen_studio::file;
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
-    /// Interpolation mode; `all` evaluates every mode.
+    #[command(flatten)]
+    axes: AxesArgs,
+    /// Interpolation mode; `all` evaluates every mode that supports the number of axes.
     #[arg(long, value_name = "MODE", value_parser = modes_parser(), default_value = Mode::default().id())]
     blend: Modes,
     /// Number of textures whose rendered signals are compared, in addition to the models of all textures; 0 renders
@@ -87,7 +93,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let names: Vec<String> = methods.map(|m| figure_name(&m)).chain([TABLE.to_owned()]).collect();
         check_figures(folder, &names, &[args.library.path()])?;
     }
-    let library = args.library.load()?;
+    let library = args.axes.place(args.library.load()?, None, &[])?;
+    let blendings = supported(blendings, library.axis_names().len());
     let n_textures = args.signals.unwrap_or(usize::MAX);
     let signals = SignalPlan { n_textures, seconds: args.seconds, seed: args.seed };
     let plan = Plan { blendings, signals: (n_textures > 0).then_some(signals) };
@@ -100,7 +107,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             measured.textures.len()
         ));
     }
-    let report = evaluation_report(&library, &measured);
+    let mut report = evaluation_report(&library, &measured);
+    report["axes"] = library.axis_names().into();
+    report["axes_caveat"] = axes_caveat(&library).into();
     if let Some(folder) = &args.figures {
         let figures = evaluation_figures(&library, &measured);
         let files: Vec<_> =
@@ -109,6 +118,24 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     output::print(args.json, &report, || table(&library, &measured, args.figures.as_deref()));
     Ok(())
+}
+
+/// Leaves out the modes that do not interpolate in a space with this number of axes, and notes them. A single mode stays: the
+/// evaluation then states why it fails.
+fn supported(blendings: Vec<Blending>, n_axes: usize) -> Vec<Blending> {
+    if blendings.len() == 1 {
+        return blendings;
+    }
+    let (supported, others): (Vec<Blending>, Vec<Blending>) =
+        blendings.into_iter().partition(|blending| blending.check_in(n_axes).is_ok());
+    if !others.is_empty() {
+        let ids: Vec<&str> = others.iter().map(|blending| blending.mode.id()).collect();
+        output::note(&format!(
+            "the modes {} are left out: they interpolate in triangles, which a space with {n_axes} axes does not have",
+            ids.join(", ")
+        ));
+    }
+    supported
 }
 
 fn measure(library: &Library, plan: &Plan) -> Result<LeaveOneOut, LeaveOneOutError> {
@@ -150,11 +177,11 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
     let rendered = if n_rendered > 0 { format!(" {model:>12} {signal:>12}") } else { String::new() };
     let mut lines = vec![
         format!(
-            "{}: leave-one-out of {} ({} have a position; {} on the convex hull are not evaluated); {}; the errors are computed, not rated by people",
+            "{}: leave-one-out of {} ({} have a position; {}); {}; the errors are computed, not rated by people",
             library.name,
             counted(n, "texture"),
             n + measured.on_hull.len(),
-            measured.on_hull.len(),
+            evaluated(measured.on_hull.len()),
             evaluation_source(library)
         ),
         format!(
@@ -172,7 +199,7 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
         "NRS: 1 - error / distance between the two textures farthest apart on the first axis, averaged over textures.",
     ];
     lines.extend(notes.map(str::to_owned));
-    lines.extend(position_caveat(library).map(str::to_owned));
+    lines.extend([position_caveat(library), axes_caveat(library)].into_iter().flatten().map(str::to_owned));
     if let Some(largest) = checks.map(|c| c.mean_difference_db).max_by(f64::total_cmp) {
         lines.push(format!(
             "Model, signal: mean error of {}, computed from the models and from rendered signals. For one texture, the two differ by {largest:.2} dB on average at most.",
@@ -181,6 +208,20 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
     }
     lines.extend(figures.map(|folder| format!("Figures: {}", folder.display())));
     lines.join("\n")
+}
+
+/// Limit of the result: whether an axis is computed from the vibration.
+fn axes_caveat(library: &Library) -> Option<&'static str> {
+    let is_computed = library.axis_names().into_iter().any(|name| SignalAxis::from_name(name).is_some());
+    is_computed.then_some(SIGNAL_AXES_NOTE)
+}
+
+/// Returns how many textures are not evaluated. With more than two axes, those on the convex hull are evaluated too.
+fn evaluated(n_on_hull: usize) -> String {
+    match n_on_hull {
+        0 => "all are evaluated".to_owned(),
+        n => format!("{n} on the convex hull are not evaluated"),
+    }
 }
 
 fn row(summary: &Summary, is_best: bool) -> String {

@@ -138,7 +138,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "image": shown(PICTURE),
         "millimeters": made.picture.millimeters,
         "millimeters_source": if made.relief.is_some() { "made" } else { "assumed" },
-        "at": [at.rough_smooth, at.hard_soft],
+        "at": at.coordinates(),
         "texture": shown(TEXTURE),
         "texture_id": texture_id,
         "texture_source": if surface.is_some() { "height field" } else { "interpolation" },

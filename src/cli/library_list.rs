@@ -5,7 +5,9 @@ use shagreen_core::space::LabelSource;
 use shagreen_core::words::counted;
 use shagreen_formats::axis_sources::axis_sources;
 use shagreen_formats::library::{Library, Provenance, TextureEntry};
+use shagreen_studio::axes::{KnownAxis, known_axes};
 
+use crate::cli::axes_args::AxesArgs;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
 
@@ -13,6 +15,8 @@ use crate::cli::output;
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
+    #[command(flatten)]
+    axes: AxesArgs,
     /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
@@ -20,18 +24,25 @@ pub(crate) struct Args {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let library = args.library.load()?;
+    let known = known_axes(&library);
+    let library = args.axes.place(library, None, &[])?;
     let textures: Vec<Value> = library.textures.iter().map(|texture| describe(&library, texture)).collect();
     output::print(
         args.json,
         &json!({
             "library": library.name,
             "axes": library.axis_names(),
+            "known_axes": known.iter().map(known_axis).collect::<Vec<_>>(),
             "axis_sources": library.space_report.as_ref().and_then(axis_sources),
             "textures": textures,
         }),
-        || table(&library),
+        || table(&library, &known),
     );
     Ok(())
+}
+
+fn known_axis(axis: &KnownAxis) -> Value {
+    json!({"name": axis.name, "source": axis.source.label(), "textures": axis.n_known})
 }
 
 fn describe(library: &Library, texture: &TextureEntry) -> Value {
@@ -39,7 +50,7 @@ fn describe(library: &Library, texture: &TextureEntry) -> Value {
         "id": texture.id,
         "name": texture.name,
         "tags": texture.tags,
-        "at": texture.at().map(|at| [at.rough_smooth, at.hard_soft]),
+        "at": texture.at().map(|at| at.coordinates().to_vec()),
         "label_source": texture.label_source().map(LabelSource::id),
         "nodes": texture.model.n_nodes(),
         "order": texture.model.order(),
@@ -66,7 +77,7 @@ fn describe(library: &Library, texture: &TextureEntry) -> Value {
     })
 }
 
-fn table(library: &Library) -> String {
+fn table(library: &Library, known: &[KnownAxis]) -> String {
     let widest = library
         .textures
         .iter()
@@ -102,10 +113,12 @@ fn table(library: &Library) -> String {
             model.rate()
         )
     };
-    let [across, up] = library.axis_names();
     let n_textures = counted(library.textures.len(), "texture");
-    let head = format!("{}: {n_textures}; axes: {across} and {up}", library.name);
-    let mut lines = vec![head];
+    let mut lines =
+        vec![format!("{}: {n_textures}; axes: {}", library.name, library.axis_names().join(", "))];
+    let in_words = |axis: &KnownAxis| format!("{} ({}, {})", axis.name, axis.source.label(), axis.n_known);
+    let known: Vec<String> = known.iter().map(in_words).collect();
+    lines.push(format!("known axes (source, textures): {}", known.join(", ")));
     let sources = library.space_report.as_ref().and_then(axis_sources);
     lines.extend(sources.map(|sources| format!("positions: {sources}")));
     lines.extend(library.textures.iter().map(line));

@@ -7,6 +7,7 @@ use serde_json::json;
 use shagreen_formats::atomic;
 use shagreen_formats::places_csv::{Scale, places_csv, read_places};
 
+use crate::cli::axes_args::AxesArgs;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
@@ -16,6 +17,8 @@ use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
+    #[command(flatten)]
+    axes: AxesArgs,
     /// CSV file to write.
     #[arg(long, value_name = "A.csv")]
     out: PathBuf,
@@ -29,7 +32,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_foreign(&args.out, "the table of positions", |bytes| {
         read_places(bytes, None, Scale::OF_SPACE).is_ok()
     })?;
-    let library = args.library.load()?;
+    let library = args.axes.place(args.library.load()?, None, &[])?;
     let n_placed = library.textures.iter().filter(|texture| texture.place.is_some()).count();
     if n_placed == 0 {
         bail!(

@@ -20,6 +20,7 @@ use shagreen_formats::library::Library;
 use crate::cli::limiter_summary::LimiterSummary;
 use crate::cli::motion::{Motion, MotionArgs, motion};
 use crate::cli::output::{self, Printed};
+use crate::cli::point::named_json;
 use crate::cli::progress::{Progress, in_ms};
 use crate::cli::rig::{Rig, RigArgs};
 use crate::cli::target::SoundArgs;
@@ -95,6 +96,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "tripped": status.tripped,
             "parents": chosen.parents_json(&library),
             "at": chosen.at_json(),
+            "at_named": named_json(&library, chosen.at),
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
             "shape": chosen.shape.text(),

@@ -32,11 +32,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         ProjectLibrary::Inside(_) => json!({"inside": true}),
     };
     let name = library_names::name(&project.library);
+    let of_library = || textures.axis_names().into_iter().map(str::to_owned).collect();
+    let axes: Vec<String> = project.axes.clone().unwrap_or_else(of_library);
     let authored: Vec<Value> = project.authored.iter().map(|texture| describe(texture)).collect();
     let result = json!({
         "library": name,
         "library_kept": kept,
         "textures": textures.textures.len(),
+        "axes": axes,
         "joined": project.joined.len(),
         "own": own_textures(&project, &textures),
         "authored": authored,
@@ -47,7 +50,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     output::print(args.json, &result, || {
         let widest =
             project.authored.iter().map(|t| t.name.chars().count()).max().unwrap_or(0).min(output::MAX_WIDTH);
-        let mut lines = vec![format!("{name}, {} textures", textures.textures.len())];
+        let mut lines =
+            vec![format!("{name}, {} textures; axes: {}", textures.textures.len(), axes.join(", "))];
         lines.extend(project.authored.iter().map(|texture| line(texture, widest)));
         lines.join("\n")
     });
@@ -67,7 +71,7 @@ fn describe(texture: &AuthoredTexture) -> Value {
         "name": texture.name,
         "tags": texture.tags,
         "notes": texture.notes,
-        "at": [texture.at.rough_smooth, texture.at.hard_soft],
+        "at": texture.at.coordinates(),
         "blend": blend.mode.id(),
         "natural": blend.weights == Weights::Natural,
         "extrapolate": blend.outside == Outside::Extrapolated,

@@ -19,6 +19,7 @@ use shagreen_studio::report::Reporter as _;
 
 use crate::cli::motion::{Motion, MotionArgs, motion};
 use crate::cli::output::{self, Printed};
+use crate::cli::point::named_json;
 use crate::cli::progress::{Progress, in_ms};
 use crate::cli::target::SoundArgs;
 use crate::cli::wav_name::check_wav_name;
@@ -116,6 +117,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "seconds": seconds,
             "parents": chosen.parents_json(&library),
             "at": chosen.at_json(),
+            "at_named": named_json(&library, chosen.at),
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
             "blend": chosen.mode.id(),

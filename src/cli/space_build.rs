@@ -47,7 +47,8 @@ pub(crate) struct Args {
     /// dimension. Without sorts, the default is the two least correlated pairs with reliable ratings.
     #[arg(long, value_name = "A,B", value_parser = parse_axes)]
     axes: Option<Axes>,
-    /// Number of dimensions of the perceptual space; needs sorts [default: 2].
+    /// Number of dimensions of the perceptual space; needs sorts [default: 2]. With three or more, the coordinates of the
+    /// textures become attributes of the library, named "dimension 1", "dimension 2" and so on, which can be axes.
     #[arg(long, value_parser = clap::value_parser!(u8).range(2..=MAX_DIMS as i64))]
     dimensions: Option<u8>,
     /// Treatment of tied dissimilarities: primary allows different disparities, secondary keeps them equal. With

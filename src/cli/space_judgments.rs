@@ -162,7 +162,7 @@ impl JudgmentArgs {
             SpaceBuildError::NothingShared
             | SpaceBuildError::FlatAxis { .. }
             | SpaceBuildError::Selection { .. }
-            | SpaceBuildError::Triangulation(_) => [sorting, ratings],
+            | SpaceBuildError::Space(_) => [sorting, ratings],
             _ => [None, None],
         };
         let error = match &error {

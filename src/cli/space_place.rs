@@ -24,10 +24,10 @@ use shagreen_studio::replace::{has_format, is_library, refuse_foreign, refuse_in
 /// are those of the library: `shagreen library list --library L` shows them, and `shagreen library places --library L
 /// --out A.csv` writes a table of them to edit. Without --library, they are the ids of the starter library. The table can
 /// have columns of other attributes, each named by its two poles, such as `flat-bumpy`. For other axes, name the
-/// columns of the position `x:` and `y:` with the attribute, such as `x:warm-cold` and `y:flat-bumpy`. `--scale` states
-/// a scale other than 0 to 100. A column `source` states the source of each position; otherwise `--source` states one
-/// for all. Textures that the table does not contain lose their position, because positions from different sources
-/// cannot be compared.
+/// columns of the position `x:` and `y:` with the attribute, such as `x:warm-cold` and `y:flat-bumpy`. Further axes, up to
+/// six, have the columns `z:`, `u:`, `v:` and `w:`; a space with one axis has only `x:`. `--scale` states a scale other than
+/// 0 to 100. A column `source` states the source of each position; otherwise `--source` states one for all. Textures that
+/// the table does not contain lose their position, because positions from different sources cannot be compared.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -110,6 +110,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         &json!({
             "placed": n_placed,
             "missing": missing,
+            "axes": library.axis_names(),
             "warnings": warnings,
             "out": args.out.display().to_string(),
         }),

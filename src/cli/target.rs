@@ -2,18 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::bail;
+use anyhow::{Context as _, bail};
 use shagreen_core::space::SpacePoint;
 use shagreen_core::texture::shape::Shape;
 use shagreen_formats::library::Library;
 use shagreen_formats::project::Project;
+use shagreen_studio::near_names::unknown_texture;
 use shagreen_studio::project::{find_authored, load_project, textures_of};
 use shagreen_studio::sound::Sound;
 
+use crate::cli::axes_args::AxesArgs;
 use crate::cli::blending::BlendArgs;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed};
 use crate::cli::own_folder::permitted_libraries;
+use crate::cli::point::{PointArg, parse_point};
 use crate::cli::shape_args::ShapeArgs;
 
 /// Texture to render or play.
@@ -23,7 +26,10 @@ pub(crate) struct SoundArgs {
     target: TargetArgs,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Project file. --at and --texture then use the textures of the project: its library and the textures added to it.
+    #[command(flatten)]
+    axes: AxesArgs,
+    /// Project file. --at and --texture then use the textures of the project: its library and the textures added to it, on
+    /// the axes of the project.
     #[arg(long, value_name = "PROJECT", conflicts_with = "library")]
     project: Option<PathBuf>,
     #[command(flatten)]
@@ -35,67 +41,72 @@ pub(crate) struct SoundArgs {
 #[derive(clap::Args)]
 #[group(required = true, multiple = false)]
 struct TargetArgs {
-    /// Position in the space as RS,HS, each 0 to 100. RS (rough-smooth): 0 = roughest, 100 = smoothest. HS (hard-soft):
-    /// 0 = hardest, 100 = softest.
-    #[arg(long, value_name = "RS,HS", value_parser = parse_point, allow_hyphen_values = true)]
-    at: Option<SpacePoint>,
+    /// Position in the space: one coordinate for each axis, each 0 to 100, as in 30,70. The usual axes are rough-smooth (0 =
+    /// roughest, 100 = smoothest) and hard-soft (0 = hardest, 100 = softest). Or coordinates by the names of the axes, as in
+    /// rough-smooth=30,centroid=60: an axis that is not named has its local mean. Without --axes, a name that is no axis of
+    /// the library's positions becomes a further axis.
+    #[arg(long, value_name = "POINT", value_parser = parse_point, allow_hyphen_values = true)]
+    at: Option<PointArg>,
     /// Texture of the library, by id.
     #[arg(long, value_name = "ID")]
     texture: Option<String>,
     /// Authored texture of the project, by name or number, with its interpolation settings and its shape in the project.
     /// `shagreen project show` lists names and numbers.
-    #[arg(long, value_name = "NAME", requires = "project", conflicts_with_all = ["blend", "natural", "extrapolate", "lock"])]
+    #[arg(long, value_name = "NAME", requires = "project", conflicts_with_all = ["blend", "natural", "extrapolate", "lock", "axes"])]
     authored: Option<String>,
 }
 
-/// Textures to select from. Those that take no part in the interpolation of the selected texture have no position.
-pub(crate) struct Textures {
-    pub(crate) library: Library,
+/// Textures to select from, and the point that the arguments name. Textures that take no part in the interpolation of the
+/// selected texture have no position.
+struct Textures {
+    library: Library,
     project: Option<Project>,
-}
-
-/// Parses a point of the space, as `RS,HS`.
-pub(crate) fn parse_point(text: &str) -> Result<SpacePoint, String> {
-    let number = |part: &str| {
-        part.trim()
-            .parse::<f64>()
-            .map_err(|_| format!("\"{}\" is not a number; write RS,HS as in 30,70", part.trim()))
-    };
-    let (rough_smooth, hard_soft) = text.split_once(',').ok_or("write RS,HS as in 30,70")?;
-    SpacePoint::new(number(rough_smooth)?, number(hard_soft)?).map_err(|error| error.to_string())
+    at: Option<SpacePoint>,
 }
 
 impl SoundArgs {
     /// Loads the library that the arguments name and selects a texture of it.
     pub(crate) fn load(&self) -> anyhow::Result<(Library, Sound)> {
-        let textures = self.load_textures()?;
+        self.load_without(None)
+    }
+
+    /// As [`SoundArgs::load`], after the texture with this id was removed from the library.
+    pub(crate) fn load_without(&self, left_out: Option<&str>) -> anyhow::Result<(Library, Sound)> {
+        let textures = self.load_textures(left_out)?;
         let chosen = self.choose(&textures)?;
         Ok((textures.library, chosen))
     }
 
-    /// Loads the textures that the arguments name.
-    pub(crate) fn load_textures(&self) -> anyhow::Result<Textures> {
+    fn load_textures(&self, left_out: Option<&str>) -> anyhow::Result<Textures> {
         let project = self
             .project
             .as_deref()
             .map(|path| load_project(path, &permitted_libraries(), &Printed))
             .transpose()?;
-        let library = match &project {
-            Some(project) => self.textures_in(project)?,
-            None => self.library.load()?,
+        let points: Vec<&PointArg> = self.target.at.iter().collect();
+        let mut library = match &project {
+            Some(project) => {
+                let placed = self.axes.place(textures_of(project)?, project.axes.as_deref(), &points)?;
+                self.textures_in(project, &placed)?
+            }
+            None => self.axes.place(self.library.load()?, None, &points)?,
         };
-        Ok(Textures { library, project })
+        if let Some(id) = left_out {
+            let index = library.index_of(id).with_context(|| unknown_texture(&library, id))?;
+            library.textures.remove(index);
+        }
+        let at = self.target.at.as_ref().map(|at| at.in_space(&library)).transpose()?;
+        Ok(Textures { library, project, at })
     }
 
     /// The textures of a project, for its authored texture that the arguments name, or for a point with the pins that they
     /// name.
-    fn textures_in(&self, project: &Project) -> anyhow::Result<Library> {
-        let textures = textures_of(project)?;
+    fn textures_in(&self, project: &Project, textures: &Library) -> anyhow::Result<Library> {
         let Some(name) = &self.target.authored else {
-            return Ok(project.with_places_of(&textures, |id| self.blending.pins(id)));
+            return Ok(project.with_places_of(textures, |id| self.blending.pins(id)));
         };
         let locked = &find_authored(project, name)?.blend.locked;
-        Ok(project.with_places_of(&textures, |id| locked.contains(id)))
+        Ok(project.with_places_of(textures, |id| locked.contains(id)))
     }
 
     /// Returns the library file or folder, or the project, that was named.
@@ -104,42 +115,30 @@ impl SoundArgs {
     }
 
     /// Selects the texture that the arguments name.
-    pub(crate) fn choose(&self, Textures { library, project }: &Textures) -> anyhow::Result<Sound> {
+    fn choose(&self, Textures { library, project, at }: &Textures) -> anyhow::Result<Sound> {
         let (point, blending, own_shape) = match (&self.target.authored, project) {
             (Some(name), Some(project)) => {
                 let authored = find_authored(project, name)?;
-                let blending = authored.blend.blending(|id| library.index_of(id));
+                let blend = authored.blend.in_space(authored.at.n_axes());
+                if blend.mode != authored.blend.mode {
+                    output::note(&format!(
+                        "\"{name}\" has mode {}, which needs a space with one or two axes; it is interpolated in mode {}",
+                        authored.blend.mode.id(),
+                        blend.mode.id()
+                    ));
+                }
+                let blending = blend.blending(|id| library.index_of(id));
                 (Some(authored.at), blending, authored.shape)
             }
-            _ => (self.target.at, self.blending.blending(library)?, Shape::default()),
+            _ => (*at, self.blending.blending(library)?, Shape::default()),
         };
         let shape = self.shape.or(own_shape);
         if let Some(id) = &self.target.texture {
             return Sound::of_texture(library, id, blending.mode, &shape);
         }
         let Some(point) = point else {
-            bail!(output::Usage("no texture is selected; give --at RS,HS, --texture ID, or --project FILE with --authored NAME".to_owned()))
+            bail!(output::Usage("no texture is selected; give --at POINT, --texture ID, or --project FILE with --authored NAME".to_owned()))
         };
         Sound::of_point(library, point, (&blending, &shape), &Printed)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::parse_point;
-
-    #[test]
-    fn points_say_what_is_wrong() {
-        assert_eq!(parse_point("30, 70.5").unwrap().hard_soft, 70.5);
-        for (text, words) in [
-            ("30", "RS,HS"),
-            ("a,70", "\"a\""),
-            ("130,70", "rough-smooth is 130"),
-            ("30,-1", "hard-soft is -1"),
-            ("NaN,1", "rough-smooth is NaN"),
-        ] {
-            let error = parse_point(text).unwrap_err();
-            assert!(error.contains(words), "{error}");
-        }
     }
 }

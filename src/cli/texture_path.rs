@@ -3,20 +3,20 @@
 use std::path::PathBuf;
 
 use serde_json::json;
-use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Authoring, Blending};
 use shagreen_core::space::texture_path::{Along, AtEnd, MAX_KEYS, Route, Stop, TexturePath};
 use shagreen_core::texture::shape::Shape;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
 
+use crate::cli::axes_args::AxesArgs;
 use crate::cli::blending::BlendArgs;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed};
+use crate::cli::point::{PointArg, parse_point};
 use crate::cli::progress::Progress;
 use crate::cli::quantity::within;
 use crate::cli::shape_args::ShapeArgs;
-use crate::cli::target::parse_point;
 use crate::cli::words::words;
 use shagreen_studio::authoring::authoring;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
@@ -25,10 +25,10 @@ use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 /// library file. `render`, `play` and the window use it like any other texture.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Position in the space, and the position along the stroke at which it is reached, in mm (or in s with --along
-    /// time): 30,70@0. Give this option at least twice, first with @0.
-    #[arg(long = "stop", value_name = "RS,HS@X", value_parser = parse_stop, required = true, allow_hyphen_values = true)]
-    stops: Vec<(SpacePoint, f64)>,
+    /// Position in the space, as with `render --at`, and the position along the stroke at which it is reached, in mm (or in s
+    /// with --along time): 30,70@0. Give this option at least twice, first with @0.
+    #[arg(long = "stop", value_name = "POINT@X", value_parser = parse_stop, required = true, allow_hyphen_values = true)]
+    stops: Vec<(PointArg, f64)>,
     /// Quantity along the stroke: the distance that the tip has traveled, or the time in contact.
     #[arg(long, value_name = "WHAT", value_parser = words(Along::ALL, Along::id), default_value = Along::default().id())]
     along: Along,
@@ -37,6 +37,8 @@ pub(crate) struct Args {
     at_end: AtEnd,
     #[command(flatten)]
     library: LibraryArgs,
+    #[command(flatten)]
+    axes: AxesArgs,
     #[command(flatten)]
     blending: BlendArgs,
     #[command(flatten)]
@@ -58,18 +60,20 @@ const COARSE: f64 = 8.0;
 /// Range of the place of a point along a stroke, in mm or s.
 const ALONG: std::ops::RangeInclusive<f64> = 0.0..=1e6;
 
-fn parse_stop(text: &str) -> Result<(SpacePoint, f64), String> {
-    let (at, along) = text.split_once('@').ok_or("write RS,HS@X as in 30,70@0")?;
+fn parse_stop(text: &str) -> Result<(PointArg, f64), String> {
+    let (at, along) = text.rsplit_once('@').ok_or("write RS,HS@X as in 30,70@0")?;
     Ok((parse_point(at)?, within(along.trim(), &ALONG, "mm or s")?))
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_inputs(&[&args.out], &[args.library.path()])?;
     refuse_foreign(&args.out, "a path", is_path)?;
-    let library = args.library.load()?;
+    let points: Vec<&PointArg> = args.stops.iter().map(|(at, _)| at).collect();
+    let library = args.axes.place(args.library.load()?, None, &points)?;
     let blending = args.blending.blending(&library)?;
     let (scale, unit) = args.along.unit();
-    let stops = args.stops.iter().map(|(at, x)| Stop { at: *at, along: scale * x }).collect();
+    let stop = |(at, x): &(PointArg, f64)| Ok(Stop { at: at.in_space(&library)?, along: scale * x });
+    let stops = args.stops.iter().map(stop).collect::<anyhow::Result<_>>()?;
     let route = Route::new(args.along, args.at_end, stops)?;
     let progress = Progress::endless("interpolating the textures of the path");
     let authoring = authoring(&library, blending.mode, &Printed)?;
@@ -168,15 +172,15 @@ fn alone(library: &Library, entry: TextureEntry) -> Library {
 
 #[cfg(test)]
 mod tests {
-    use super::parse_stop;
+    use super::{PointArg, parse_stop};
 
     #[test]
     fn stops_say_what_is_wrong() {
         let (at, along) = parse_stop("30, 70.5 @ 12").unwrap();
-        assert_eq!((at.rough_smooth, at.hard_soft, along), (30.0, 70.5, 12.0));
-        for (text, words) in
-            [("30,70", "RS,HS@X"), ("30@1", "RS,HS"), ("30,70@-1", "0 or greater"), ("130,7@0", "130")]
-        {
+        assert_eq!((at, along), (PointArg::Ordered(vec![30.0, 70.5]), 12.0));
+        let (at, _) = parse_stop("rough-smooth=30@1").unwrap();
+        assert_eq!(at, PointArg::Named(vec![("rough-smooth".to_owned(), 30.0)]));
+        for (text, words) in [("30,70", "RS,HS@X"), ("30,70@-1", "0 or greater"), ("a,7@0", "\"a\"")] {
             let error = parse_stop(text).unwrap_err();
             assert!(error.contains(words), "{error}");
         }

@@ -144,7 +144,7 @@ impl PictureArgs {
 /// Returns the position of a texture on both axes, unless it is an estimate.
 fn labels_of(texture: &TextureEntry) -> Option<Vec<f64>> {
     let place = texture.place.filter(|place| place.source != LabelSource::Estimated)?;
-    Some(vec![place.at.rough_smooth, place.at.hard_soft])
+    Some(vec![place.at.x(), place.at.y()])
 }
 
 /// Returns the prediction for a texture from all its pictures.

@@ -1,6 +1,5 @@
 //! `shagreen texture psd`: computes the power spectral density (PSD) of a texture's model at one speed and force.
 
-use anyhow::Context as _;
 use serde_json::json;
 use shagreen_core::dsp::ar::comparison_frequencies;
 use shagreen_core::dsp::threshold::Threshold;
@@ -14,10 +13,10 @@ use shagreen_formats::library::Library;
 use shagreen_formats::thresholds::ThresholdKind;
 
 use crate::cli::output::{self, Printed};
+use crate::cli::point::named_json;
 use crate::cli::quantity::{force, speed};
 use crate::cli::target::SoundArgs;
 use crate::cli::words::words;
-use shagreen_studio::near_names::unknown_texture;
 use shagreen_studio::sound::Sound;
 use shagreen_studio::trace::steady_trace;
 
@@ -56,14 +55,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let mut textures = args.sound.load_textures()?;
-    if let Some(id) = &args.without {
-        let library = &mut textures.library;
-        let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
-        library.textures.remove(index);
-    }
-    let chosen = args.sound.choose(&textures)?;
-    let library = textures.library;
+    let (library, chosen) = args.sound.load_without(args.without.as_deref())?;
     if let Some(path) = &chosen.path {
         let n_keys = path.keys().len();
         output::note(&format!(
@@ -161,6 +153,7 @@ fn print_figures(args: &Args, chosen: &Sound, library: &Library, figures: &Figur
             "rate_hz": chosen.rate(library)?.0,
             "parents": chosen.parents_json(library),
             "at": chosen.at_json(),
+            "at_named": named_json(library, chosen.at),
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
             "blend": chosen.mode.id(),

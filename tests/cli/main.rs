@@ -13,6 +13,7 @@ mod disk_faults;
 mod support;
 
 mod author;
+mod axes;
 mod bad_files;
 mod devices;
 mod errors;

@@ -46,7 +46,7 @@ fn row(prompt: &str, looker: &PicturePredictor, library: &Library) -> String {
     assert_eq!(made.witness(), Witness::OfTheWords, "{prompt}");
     let placed = place(words, [seen.attributes[0], seen.attributes[1]], made.witness());
     assert_eq!(placed.axes.map(|axis| axis.estimate), words, "{prompt}: the picture moved the words");
-    assert_eq!([placed.at.rough_smooth, placed.at.hard_soft], words.map(|of| of.mean), "{prompt}");
+    assert_eq!([placed.at.x(), placed.at.y()], words.map(|of| of.mean), "{prompt}");
     let near: Vec<String> =
         nearest(library, placed.at, 3).iter().map(|(texture, _)| texture.name.clone()).collect();
     let numbers =
@@ -55,8 +55,8 @@ fn row(prompt: &str, looker: &PicturePredictor, library: &Library) -> String {
         "| {prompt} | {} | {} | {:.0}, {:.0} | {} |\n",
         words_of(&understood),
         numbers.join(" | "),
-        placed.at.rough_smooth,
-        placed.at.hard_soft,
+        placed.at.x(),
+        placed.at.y(),
         near.join(", ")
     )
 }

@@ -16,8 +16,7 @@ fn made_up_ratings() -> String {
         for (i, texture) in library.textures.iter().enumerate() {
             let at = texture.at().unwrap();
             let off = |step: usize| ((step * i + 13 * rater) % 17) as f64 - 8.0;
-            let [rough, hard] =
-                [at.rough_smooth + off(7), at.hard_soft + off(11)].map(|v| v.clamp(0.0, 100.0).round());
+            let [rough, hard] = [at.x() + off(7), at.y() + off(11)].map(|v| v.clamp(0.0, 100.0).round());
             let sticky = ((i * 37) % 90) as f64 + off(3).abs();
             writeln!(table, "made-up-{rater},{},{rough},{hard},{sticky}", texture.id).unwrap();
         }

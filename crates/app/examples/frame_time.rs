@@ -21,6 +21,7 @@ use shagreen_app::state::files::StoragePaths;
 use shagreen_app::strings;
 use shagreen_app::window::Window;
 use shagreen_core::maths::rng::Random;
+use shagreen_core::space::SpacePoint;
 use shagreen_formats::library::Library;
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::starter::starter_library;
@@ -130,8 +131,7 @@ fn crowded(n_textures: usize) -> Library {
             texture.id = format!("{}-{i}", texture.id);
             texture.name = format!("{} {i}", texture.name);
             if let Some(place) = &mut texture.place {
-                (place.at.rough_smooth, place.at.hard_soft) =
-                    (100.0 * random.uniform(), 100.0 * random.uniform());
+                place.at = SpacePoint::plane(100.0 * random.uniform(), 100.0 * random.uniform());
             }
             texture
         })

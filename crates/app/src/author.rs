@@ -4,7 +4,7 @@
 
 pub(crate) mod authored_menu;
 pub(crate) mod authored_panel;
-pub(crate) mod axes_choice;
+pub(crate) mod axis_sliders;
 pub mod blend_choice;
 pub mod canvas;
 pub(crate) mod compare_ui;

@@ -1,16 +1,21 @@
 //! Commands of the user and their keyboard shortcuts.
 
+pub mod axes;
 pub mod clipboard;
 pub mod networks;
 pub mod prompt;
 pub mod relief;
+mod shortcuts;
 pub mod signals;
 pub mod stroke;
 
 use std::path::PathBuf;
 
-use egui::{Event, Key, KeyboardShortcut, Modifiers};
+use egui::{Key, KeyboardShortcut, Modifiers};
 
+pub use self::shortcuts::pressed;
+pub(crate) use self::shortcuts::was_writing;
+use crate::command::axes::AxesCommand;
 use crate::command::clipboard::ClipboardCommand;
 use crate::command::networks::NetworksCommand;
 use crate::command::prompt::PromptCommand;
@@ -28,7 +33,7 @@ use crate::state::compare::{CompareCommand, Side};
 use crate::state::edit::Edit;
 use crate::state::figure_file::FigureFile;
 use crate::state::rig::Rig;
-use crate::strings::{about, networks as networks_words, relief as relief_words};
+use crate::strings::{about, axes as axes_words, networks as networks_words, relief as relief_words};
 use crate::workspace::Workspace;
 
 /// Command of the user, executed after the frame.
@@ -135,6 +140,8 @@ pub enum Command {
     RenameSelected,
     /// Deletes the selected authored texture, unless it is the last one.
     DeleteSelected,
+    /// Command about the axes of the space.
+    Axes(AxesCommand),
     /// Command about the clipboard.
     Clipboard(ClipboardCommand),
     /// Command of the Signals workspace.
@@ -257,7 +264,7 @@ const FILES_AND_EDITS: [Command; 12] = [
     Command::Redo,
 ];
 
-const OTHERS: [Command; 30] = [
+const OTHERS: [Command; 32] = [
     Command::Clipboard(ClipboardCommand::Copy(None)),
     Command::Clipboard(ClipboardCommand::Cut(None)),
     Command::Clipboard(ClipboardCommand::Paste),
@@ -268,6 +275,8 @@ const OTHERS: [Command; 30] = [
     Command::ToggleHover,
     Command::ToggleMotion,
     Command::OpenPalette,
+    Command::Axes(AxesCommand::Open),
+    Command::Axes(AxesCommand::Swap),
     Command::TogglePathTool,
     Command::KeepPath,
     Command::Relief(ReliefCommand::Begin(None, None)),
@@ -310,6 +319,8 @@ impl Command {
             Self::Redo => Entry::new("Redo").command_shift(Key::Z),
             Self::Show(workspace) => Entry::new(workspace.info().show).command(workspace.info().key),
             Self::OpenPalette => Entry::new("Find a command").command_shift(Key::P),
+            Self::Axes(AxesCommand::Open) => Entry::new(axes_words::COMMAND),
+            Self::Axes(AxesCommand::Swap) => Entry::new(axes_words::SWAP),
             Self::TogglePathTool => Entry::new("Turn the path tool on or off").key(Key::P),
             Self::KeepPath => Entry::new("Add the path as a texture"),
             Self::Relief(ReliefCommand::Begin(None, None)) => Entry::new(relief_words::TITLE),
@@ -364,55 +375,4 @@ impl Command {
     pub(crate) fn shortcut_text(&self, ctx: &egui::Context) -> String {
         self.shortcut().map_or(String::new(), |keys| ctx.format_shortcut(&keys))
     }
-}
-
-fn was_writing_id() -> egui::Id {
-    egui::Id::unique("a text field had the focus")
-}
-
-/// Whether a text field had the keyboard focus when [`pressed`] was last called.
-pub(crate) fn was_writing(ctx: &egui::Context) -> bool {
-    ctx.data(|data| data.get_temp(was_writing_id())).unwrap_or(false)
-}
-
-/// Commands whose shortcuts were pressed in this frame. Shortcuts without modifiers apply only if nothing or `canvas`
-/// has the keyboard focus, because buttons and text fields use those keys themselves. They do not apply in the frame
-/// after a text field lost the focus either: the key was still meant for the field.
-pub fn pressed(ctx: &egui::Context, canvas: egui::Id) -> Vec<Command> {
-    let focused = ctx.memory(egui::Memory::focused);
-    let is_writing = ctx.text_edit_focused();
-    let was_writing =
-        ctx.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default(was_writing_id()), is_writing));
-    let plain_keys_are_ours = focused.is_none_or(|f| f == canvas) && !was_writing;
-    // The shortcut of redo contains that of undo, and that of "save as" contains that of "save". Longer ones come
-    // first.
-    let has_shift = |c: &Command| c.shortcut().is_some_and(|s| s.modifiers.shift);
-    let mut commands: Vec<Command> = listed().collect();
-    commands.sort_by_key(|c| !has_shift(c));
-    let keys = keys_in_order(ctx);
-    let mut found: Vec<(usize, Command)> = Vec::new();
-    for command in commands {
-        let Some(shortcut) = command.shortcut() else { continue };
-        let plain = shortcut.modifiers == Modifiers::NONE;
-        let is_event = matches!(command, Command::Clipboard(_));
-        if !is_event && (plain_keys_are_ours || !plain) && ctx.input_mut(|i| i.consume_shortcut(&shortcut)) {
-            let place = keys.iter().position(|(modifiers, key)| {
-                *key == shortcut.logical_key && modifiers.matches_logically(shortcut.modifiers)
-            });
-            found.push((place.unwrap_or(keys.len()), command));
-        }
-    }
-    // A slow frame has several keys: what was undone first is not saved.
-    found.sort_by_key(|(place, _)| *place);
-    let commands = found.into_iter().map(|(_, command)| command);
-    commands.chain(clipboard::pressed(ctx).into_iter().map(Command::Clipboard)).collect()
-}
-
-/// Keys pressed in this frame with their modifiers, in the order in which they were pressed.
-fn keys_in_order(ctx: &egui::Context) -> Vec<(Modifiers, Key)> {
-    let key = |event: &Event| match event {
-        Event::Key { key, modifiers, pressed: true, .. } => Some((*modifiers, *key)),
-        _ => None,
-    };
-    ctx.input(|i| i.events.iter().filter_map(key).collect())
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use shagreen_core::space::SpacePoint;
 use shagreen_formats::project::{AuthoredTexture, Project};
 
 use crate::session::Session;
@@ -61,9 +62,21 @@ impl<'a> Panel<'a> {
         self.inspected().key == self.project.texture().key
     }
 
+    /// Point of the canvas with the further coordinates of the selected texture: the canvas shows a slice of the space through
+    /// them.
+    pub fn on_slice(&self, at: SpacePoint) -> SpacePoint {
+        self.session.fitted(self.project.texture().at).on_canvas_at(at)
+    }
+
+    /// Whether textures can be pinned in the selected texture: only its mode Field passes through them.
+    pub fn can_lock(&self) -> bool {
+        self.session.blend_in_space(&self.project.texture().blend).can_lock()
+    }
+
     /// Whether a texture of the list is pinned: the field passes through it exactly at its position.
     pub fn is_locked(&self, texture: usize) -> bool {
-        self.project.texture().blend.is_locked(&self.session.textures()[texture].id)
+        let blend = self.session.blend_in_space(&self.project.texture().blend);
+        blend.is_locked(&self.session.textures()[texture].id)
     }
 
     /// Whether a texture of the list is starred.

@@ -5,6 +5,7 @@
 mod audible;
 pub(crate) mod authored_sources;
 mod authored_state;
+mod axes;
 mod devices;
 mod follow;
 mod hand_state;
@@ -32,7 +33,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use anyhow::Context as _;
-use shagreen_core::space::authoring::{Authored, Blending};
+use shagreen_core::space::authoring::Authored;
 use shagreen_core::space::texture_path::Along;
 use shagreen_core::space::{LabelSource, Space, SpacePoint};
 use shagreen_core::texture::plane::Plane;
@@ -54,7 +55,7 @@ use self::hand_state::HandState;
 use self::loaded_textures::{Textures, positions, rate_in, rate_of_space};
 use self::messages::Said;
 use self::path_walk::PathWalk;
-use self::places::{Opened, attribute_names, places, poles_of};
+use self::places::{AxisColumns, Opened, names_of, places, poles_of};
 use self::planes_worker::PlanesWorker;
 use self::sound::Sound;
 
@@ -100,7 +101,8 @@ impl Session {
     /// highest sample rate.
     pub fn new(base: ProjectLibrary) -> anyhow::Result<Self> {
         let library = base.read().context(strings::DAMAGED_LIBRARY)?;
-        let places = places(&library.textures, None);
+        let places = places(&library, None, &mut AxisColumns::default());
+        let axis_names = names_of(&library, None);
         let rate = rate_of_space(&library.textures, &places);
         let rate_hz = rate.0;
         let mut planes = Vec::with_capacity(places.len());
@@ -128,7 +130,9 @@ impl Session {
                 renamed: BTreeMap::new(),
                 used: None,
                 axes: None,
-                poles: poles_of(&library, None),
+                columns: AxisColumns::default(),
+                poles: poles_of(&axis_names),
+                axis_names,
                 rates_hz: rates.collect(),
                 places,
                 planes,
@@ -186,7 +190,7 @@ impl Session {
         self.textures.places.get(texture)?.map(|place| place.source)
     }
 
-    /// Standard deviation of a texture's position on both axes, 0 to 100; `None` unless it was estimated with one.
+    /// Standard deviation of a texture's position on the axes of the canvas, 0 to 100; `None` unless it was estimated with one.
     pub fn place_deviation(&self, texture: usize) -> Option<[f64; 2]> {
         self.textures.places.get(texture)?.and_then(|place| place.deviation)
     }
@@ -220,16 +224,6 @@ impl Session {
         self.textures.library.space_report.as_ref().is_some_and(is_predicted_from_ratings)
     }
 
-    /// Words at the low and the high end of the x axis, then of the y axis.
-    pub fn poles(&self) -> &[[String; 2]; 2] {
-        &self.textures.poles
-    }
-
-    /// Names of the attributes on which the textures are rated, without duplicates.
-    pub fn attribute_names(&self) -> Vec<&str> {
-        attribute_names(&self.textures.library.textures)
-    }
-
     /// Library with the positions stated in its file, regardless of the space in use.
     pub fn library_as_opened(&self) -> Library {
         let mut library = self.textures.library.clone();
@@ -246,11 +240,6 @@ impl Session {
     /// Index of the soloed texture of the project.
     pub fn solo(&self, project: &Project) -> Option<usize> {
         self.index_of(project.solo.as_ref()?)
-    }
-
-    /// Interpolation options, with the pinned textures as library indices.
-    pub fn blending(&self, choice: &BlendChoice) -> Blending {
-        choice.blending(|id| self.index_of(id))
     }
 
     /// Interpolated texture at the point, or `None` if there is none or a blind comparison hides it.

@@ -1,6 +1,7 @@
 //! Modal sheets (dialogs) over the window, and the target of dropped files.
 
 pub(crate) mod about_sheet;
+pub(crate) mod axes_sheet;
 pub(crate) mod conflict_ui;
 pub mod devices;
 pub(crate) mod export;
@@ -37,6 +38,7 @@ use crate::look::sheet_frame::is_left;
 use crate::look::theme::{RADIUS, tokens};
 use crate::panel::Panel;
 use crate::sheets::about_sheet::AboutSheet;
+use crate::sheets::axes_sheet::AxesSheet;
 use crate::sheets::conflict_ui::conflict_ui;
 use crate::sheets::devices::DevicesSheet;
 use crate::sheets::export::ExportSheet;
@@ -74,6 +76,8 @@ pub(crate) enum Sheet {
     Save(SaveSheet),
     /// Exports textures and signals for other programs.
     Export(Box<ExportSheet>),
+    /// Chooses the axes of the space.
+    Axes(Box<AxesSheet>),
     /// Settings of the output, its actuator and the pen.
     Devices(Box<DevicesSheet>),
     /// Networks that predict attributes from photos.
@@ -163,6 +167,7 @@ impl Sheet {
             Self::Save(sheet) => sheet.show(ctx, session.library()),
             Self::Export(sheet) => sheet.show(ctx, panel),
             Self::Devices(sheet) => sheet.show(ctx, session),
+            Self::Axes(sheet) => sheet.show(ctx),
             Self::Networks(sheet) => sheet.show(ctx),
             Self::Open(sheet) => sheet.show(ctx, document.is_opening()),
             Self::Gallery(sheet) => sheet.show(ctx),

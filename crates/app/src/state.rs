@@ -4,12 +4,14 @@
 //! In: edits, files and device reports. Out: values that panels read.
 
 pub(crate) mod audible_texture;
+pub mod axes_change;
 pub(crate) mod background;
 pub mod bench_signal;
 pub(crate) mod blank_file;
 pub mod clipboard;
 pub mod compare;
 pub mod conflict;
+pub(crate) mod course;
 pub(crate) mod desktop_motion;
 pub mod document;
 pub mod edit;

@@ -3,9 +3,11 @@
 #![allow(missing_docs, reason = "the text of a constant says what it is for")]
 
 use shagreen_core::space::SpacePoint;
+use shagreen_core::space::signal_axes::SignalAxis;
 
 pub mod about;
 pub mod authored;
+pub mod axes;
 pub mod browse;
 pub mod build;
 pub mod clipboard;
@@ -47,10 +49,6 @@ pub const ROUGH_SMOOTH: &str = "Rough to smooth";
 pub const ROUGH_SMOOTH_HELP: &str = "0 is the roughest texture of the space, 100 the smoothest.";
 pub const HARD_SOFT: &str = "Hard to soft";
 pub const HARD_SOFT_HELP: &str = "0 is the hardest texture of the space, 100 the softest.";
-pub const AXIS_ACROSS: &str = "X axis";
-pub const AXIS_UP: &str = "Y axis";
-pub const AXES_HELP: &str = "Attribute on this axis. Any two attributes with ratings can be chosen. A texture without a rating on one of them has no position.";
-pub const AXES_AS_PLACED: &str = "default";
 
 // Workspaces.
 
@@ -205,13 +203,18 @@ pub fn axis_help(ends: &[String; 2]) -> String {
     match ends.each_ref().map(String::as_str) {
         [ROUGH, SMOOTH] => ROUGH_SMOOTH_HELP.to_owned(),
         [HARD, SOFT] => HARD_SOFT_HELP.to_owned(),
-        [low, high] => format!("0 is the most {low} texture of the space, 100 the most {high}."),
+        poles => match SignalAxis::ALL.into_iter().find(|axis| axis.poles() == poles) {
+            Some(axis) => axes::signal_help(axis),
+            None => format!("0 is the most {} texture of the space, 100 the most {}.", poles[0], poles[1]),
+        },
     }
 }
 
-/// Position of a point for a screen reader; both coordinates run from 0 to 100.
-pub fn place_in_words(point: SpacePoint, [across, up]: &[[String; 2]; 2]) -> String {
-    format!("{} {:.0}, {} {:.0}", axis(across), point.rough_smooth, axis(up), point.hard_soft)
+/// Position of a point for a screen reader; all coordinates run from 0 to 100.
+pub fn place_in_words(point: SpacePoint, poles: &[[String; 2]]) -> String {
+    let along = |(ends, value): (&[String; 2], &f64)| format!("{} {value:.0}", axis(ends));
+    let along: Vec<String> = poles.iter().zip(point.coordinates()).map(along).collect();
+    along.join(", ")
 }
 
 /// Source of the positions of all textures.
@@ -219,10 +222,19 @@ pub fn places_from(source: &str) -> String {
     format!("Positions: {source}")
 }
 
-/// Position of one texture, its standard deviation on both axes if that is known, and the source of the position.
-pub fn lies_at(point: SpacePoint, deviation: Option<[f64; 2]>, source: &str) -> String {
+/// Position of one texture, its standard deviation on both axes of the canvas if that is known, and the source of the position.
+/// With more axes, each coordinate is named.
+pub fn lies_at(
+    point: SpacePoint,
+    poles: &[[String; 2]],
+    deviation: Option<[f64; 2]>,
+    source: &str,
+) -> String {
     let uncertain = deviation.map_or_else(String::new, |[across, up]| format!(" ± {across:.0}, {up:.0}"));
-    format!("{point}{uncertain} ({source})")
+    if point.n_axes() <= 2 {
+        return format!("{point}{uncertain} ({source})");
+    }
+    format!("{}{uncertain} ({source})", place_in_words(point, poles))
 }
 
 /// Accessible name of a texture on the canvas; a click plays it alone.
@@ -292,8 +304,12 @@ mod tests {
 
     #[test]
     fn an_estimated_position_has_its_standard_deviation() {
-        let at = SpacePoint { rough_smooth: 65.7, hard_soft: 58.8 };
-        assert_eq!(lies_at(at, Some([9.6, 51.6]), "estimates"), "65.7, 58.8 ± 10, 52 (estimates)");
-        assert_eq!(lies_at(at, None, "human ratings"), "65.7, 58.8 (human ratings)");
+        let at = SpacePoint::plane(65.7, 58.8);
+        let poles =
+            [["rough", "smooth"], ["hard", "soft"], ["dull", "bright"]].map(|ends| ends.map(str::to_owned));
+        assert_eq!(lies_at(at, &poles, Some([9.6, 51.6]), "estimates"), "65.7, 58.8 ± 10, 52 (estimates)");
+        assert_eq!(lies_at(at, &poles, None, "human ratings"), "65.7, 58.8 (human ratings)");
+        let further = lies_at(at.on(3).with(2, 43.2), &poles, None, "human ratings");
+        assert_eq!(further, "Rough to smooth 66, Hard to soft 59, Dull to bright 43 (human ratings)");
     }
 }

@@ -1,6 +1,7 @@
 //! The window: lays out the panels, executes commands and requests frames.
 
 mod author_page;
+mod axes;
 mod clipboard;
 mod commands;
 mod escape;

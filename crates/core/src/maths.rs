@@ -10,6 +10,7 @@ pub mod least_squares;
 pub mod minimize;
 pub mod multinomial;
 pub mod natural_neighbor;
+pub(crate) mod nearest_in_hull;
 pub mod procrustes;
 pub mod radial_basis;
 pub mod ridge;

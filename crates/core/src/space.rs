@@ -9,16 +9,22 @@
 pub mod attribute_predictor;
 pub mod authoring;
 mod authoring_space;
+pub mod axis_evaluation;
 pub mod features;
 pub mod fidelity;
 mod field;
 pub mod heat_map;
 mod inverse_distance;
 pub mod leave_one_out;
+mod local_mean;
 mod mean_axes;
 mod sampled;
 pub mod selection;
+pub mod signal_axes;
 pub mod space_build;
+mod space_point;
 pub mod texture_path;
 
-pub use crate::space::authoring_space::{LabelSource, Location, Space, SpacePoint, SpacePointError};
+pub use crate::space::authoring_space::{LabelSource, Location, Space, SpaceError};
+pub use crate::space::local_mean::local_mean;
+pub use crate::space::space_point::{MOST_AXES, SpacePoint, SpacePointError};

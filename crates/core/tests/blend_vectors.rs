@@ -149,7 +149,7 @@ fn the_point_that_weights_reproduce() {
         for (error, mode) in error.iter_mut().zip([Mode::Power, Mode::Paper]) {
             let weights = weights(&space, at, mode, 25);
             let place = |axis: usize| -> f64 { weights.iter().zip(&sites).map(|(w, s)| w * s[axis]).sum() };
-            *error += (place(0) - at.rough_smooth / 100.0).hypot(place(1) - at.hard_soft / 100.0);
+            *error += (place(0) - at.x() / 100.0).hypot(place(1) - at.y() / 100.0);
         }
         let power: f64 = weights(&space, at, Mode::Power, 25).iter().map(|w| w * w).sum();
         losses.push(10.0 * power.log10());

@@ -54,10 +54,10 @@ pub fn attribute_table(library: &Library) -> Result<AttributeTable, AttributeTab
     };
     let mut table = AttributeTable { names, textures: Vec::new(), values: Vec::new(), sources: Vec::new() };
     if table.names.is_empty() {
-        table.names = library.axis_names().map(str::to_owned).to_vec();
+        table.names = library.axis_names().into_iter().map(str::to_owned).collect();
         for (index, texture) in indexed() {
             let Some(place) = texture.place.filter(|place| is_known(place.source)) else { continue };
-            table.add(index, vec![place.at.rough_smooth, place.at.hard_soft], place.source);
+            table.add(index, place.at.on(table.names.len()).coordinates().to_vec(), place.source);
         }
     } else {
         for (index, texture) in rated {
@@ -143,6 +143,18 @@ mod tests {
         estimated.textures[3].place.as_mut().unwrap().source = LabelSource::Estimated;
         let known = attribute_table(&estimated).unwrap();
         assert!(!known.textures.contains(&3) && known.sources == [LabelSource::PhysicalLabels]);
+        // Positions on any number of axes.
+        for n_axes in [1, 3] {
+            let mut library = starter_library().unwrap();
+            library.axes =
+                Some(["a-b", "c-d", "e-f"][..n_axes].iter().map(|name| (*name).to_owned()).collect());
+            for place in library.textures.iter_mut().filter_map(|texture| texture.place.as_mut()) {
+                place.at = place.at.on(n_axes);
+            }
+            let table = attribute_table(&library).unwrap();
+            assert_eq!((table.names.len(), table.values[0].len()), (n_axes, n_axes));
+            assert_eq!(table.values[0], library.textures[0].at().unwrap().coordinates());
+        }
         assert_eq!(attribute_table(&Library::default()), Err(AttributeTableError::Nothing));
     }
 

@@ -114,7 +114,7 @@ fn texture(library: &Library, measured: &LeaveOneOut, left: &LeftOut) -> Value {
     };
     json!({
         "id": library.textures[left.texture].id,
-        "at": [left.at.rough_smooth, left.at.hard_soft],
+        "at": left.at.coordinates(),
         "nearest": library.textures[left.nearest].id,
         "within_measured": left.is_within_measured,
         "error_db": by_method(&|outcome| json!(outcome.error_db)),
@@ -178,7 +178,7 @@ fn methods(measured: &LeaveOneOut) -> Figure {
     })
 }
 
-/// The map of one method: the error at every evaluated position, colored by whether a copy of the nearest texture has a
+/// The map of one method: the error at every evaluated position on the first two axes, colored by whether a copy of the nearest texture has a
 /// larger error.
 fn map(library: &Library, measured: &LeaveOneOut, method: usize) -> Figure {
     let summary = &measured.methods[method];
@@ -189,7 +189,7 @@ fn map(library: &Library, measured: &LeaveOneOut, method: usize) -> Figure {
         let wanted = measured.textures.iter().filter(|left| is_wanted(left));
         let point = |left: &LeftOut| {
             let label = format!("{:.1}", left.outcomes[method].error_db);
-            Point::named(left.at.rough_smooth, left.at.hard_soft, label)
+            Point::named(left.at.x(), left.at.y(), label)
         };
         wanted.map(point).collect()
     };
@@ -204,7 +204,7 @@ fn map(library: &Library, measured: &LeaveOneOut, method: usize) -> Figure {
         series(
             "on the convex hull, not evaluated",
             Tone::Faint,
-            on_hull.map(|at| Point::new(at.rough_smooth, at.hard_soft)).collect(),
+            on_hull.map(|at| Point::new(at.x(), at.y())).collect(),
         ),
         series(
             "larger error than a copy of the nearest texture",
@@ -222,11 +222,13 @@ fn map(library: &Library, measured: &LeaveOneOut, method: usize) -> Figure {
         ),
     ];
     all.retain(|series| !series.points.is_empty());
-    let [across, up] = library.axis_names();
+    // A map shows the first two axes; a position on one axis lies in the middle of the other.
+    let axes = library.axis_names();
+    let label = |axis: usize| axes.get(axis).map_or_else(String::new, |name| format!("{name}, 0 to 100"));
     Figure::Chart(Chart {
         title: format!("Error of {} in dB, mean {:.2}", method_id(&summary.method), summary.error_db_mean),
-        x_label: format!("{across}, 0 to 100"),
-        y_label: format!("{up}, 0 to 100"),
+        x_label: label(0),
+        y_label: label(1),
         is_isotropic: true,
         x_scale: Scale::Linear,
         shown: None,
@@ -304,6 +306,21 @@ mod tests {
         assert_eq!(report["compared_at"]["channels_hz"].as_array().unwrap().len(), 40);
         assert_eq!(report["on_hull"].as_array().unwrap().len(), 3);
         assert_eq!(best(&measured()).map(|s| method_id(&s.method)), Some("field"));
+    }
+
+    #[test]
+    fn positions_have_all_their_coordinates() {
+        let mut measured = measured();
+        measured.textures[0].at = SpacePoint::of(&[10.0, 23.0, 45.0]).unwrap();
+        measured.textures[1].at = SpacePoint::of(&[10.0]).unwrap();
+        let mut library = starter_library().unwrap();
+        let report = evaluation_report(&library, &measured);
+        assert_eq!(report["textures"][0]["at"], serde_json::json!([10.0, 23.0, 45.0]));
+        assert_eq!(report["textures"][1]["at"], serde_json::json!([10.0]));
+        // A map shows the first two axes, or one.
+        library.axes = Some(vec!["rough-smooth".to_owned()]);
+        let csv = String::from_utf8(figure_csv(&evaluation_figures(&library, &measured)[2].1)).unwrap();
+        assert!(csv.contains(",10,50"), "{csv}");
     }
 
     #[test]

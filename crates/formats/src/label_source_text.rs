@@ -1,9 +1,9 @@
-//! The sentence on label sources in the origin text of a library.
+//! The sentence on label sources in the origin text of a library, and positions that change it.
 
 use shagreen_core::space::LabelSource;
 
 use crate::axis_sources::is_predicted_from_ratings;
-use crate::library::Library;
+use crate::library::{Library, Place, is_usual};
 
 /// Text in the origin of built-in libraries that human ratings make false. Saved libraries contain it, so it must not
 /// change.
@@ -12,6 +12,20 @@ const NOBODY_RATED: &str = " and nobody rated one";
 const PREDICTED: &str = "predictions from vibration features (models trained on human ratings)";
 /// Start of the sentence on positions. Saved libraries contain it, so it must not change.
 const POSITIONS: &str = "Positions come from ";
+
+impl Library {
+    /// Returns the library with other positions, indexed as [`Library::textures`], on the axes with these names. The origin text
+    /// of the library states the label sources. The positions have as many coordinates as there are names.
+    #[must_use]
+    pub fn with_places(mut self, places: Vec<Option<Place>>, axes: Vec<String>) -> Self {
+        for (texture, place) in self.textures.iter_mut().zip(places) {
+            texture.place = place;
+        }
+        self.axes = (!is_usual(&axes)).then_some(axes);
+        state_origin_of_places(&mut self);
+        self
+    }
+}
 
 /// Makes the origin of a library state the label sources of its positions; replaces an earlier such sentence.
 pub(crate) fn state_origin_of_places(library: &mut Library) {

@@ -26,6 +26,7 @@ pub mod acf;
 pub mod actuator_toml;
 pub mod atomic;
 pub mod attribute_table;
+pub mod axes_report;
 pub mod axis_sources;
 pub mod bounded_file;
 pub mod built_in;

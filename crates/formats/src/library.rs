@@ -37,7 +37,7 @@
 //! Version 1.3 added, to the library:
 //!
 //! - `"axes": ["warm-cold", "flat-bumpy"]`: the attributes that the fields `rough_smooth` and `hard_soft` of every
-//!   position hold, if they differ from what these field names say.
+//!   position hold, if they differ from what these field names or the axes in `space_report` say.
 //!
 //! Version 1.4 added, to a texture that changes along a stroke:
 //!
@@ -70,6 +70,15 @@
 //! - `"stick_slip": {"static_ratio": 1.6, "stribeck_mm_per_s": 20.0}`: static friction relative to the kinetic friction
 //!   `mu`, and Stribeck speed.
 //!
+//! Version 1.8 added spaces with another number of axes than two:
+//!
+//! - `"axes"` has one to six names: attributes, or features of the vibration (`centroid`, `speed exponent`, `force exponent`,
+//!   `tap frequency`).
+//! - `"space"` and the keys of a path have the coordinate on the first axis in `rough_smooth`, on the second one in
+//!   `hard_soft`, and on the others in `"further": [20.0, 55.5]`, whatever the axes are. With one axis, there is no
+//!   `hard_soft`. Every `space` has as many coordinates as the library has axes. `sd` holds the first two axes. All keys of a
+//!   path have the same number of coordinates; it is another one than that of the axes if the path was authored on others.
+//!
 //! A file states the lowest version that has all features it uses.
 //!
 //! Unknown fields are kept in [`Unknown`] and written back. A file of a higher major version is rejected.
@@ -77,6 +86,7 @@
 mod anchors;
 pub(crate) mod attributes;
 mod authored;
+mod coordinates;
 mod error;
 mod height_map;
 mod id;
@@ -99,9 +109,11 @@ use shagreen_core::texture::TextureModel;
 
 use crate::picture::Picture;
 
-pub(crate) use crate::library::attributes::is_usual;
 pub use crate::library::attributes::{Attribute, Attributes};
+pub(crate) use crate::library::attributes::{are_axes, is_usual};
 pub use crate::library::authored::ReliefSource;
+pub use crate::library::coordinates::CoordinatesError;
+pub(crate) use crate::library::coordinates::CoordinatesV1;
 pub use crate::library::error::LibraryError;
 pub use crate::library::id::{free_id, free_name, id_from_name, name_from_file};
 pub(crate) use crate::library::numbers::{DIGITS, digits, frequencies};
@@ -114,8 +126,8 @@ pub const FORMAT: &str = "shagreen-library";
 /// Supported major version; files of another one are rejected.
 pub const VERSION_MAJOR: u32 = 1;
 /// Highest minor version that is written; a newer one may add fields.
-pub const VERSION_MINOR: u32 = 7;
-/// Default names of the two axes of a space.
+pub const VERSION_MINOR: u32 = 8;
+/// Names of the axes of a library that states none.
 pub const USUAL_AXES: [&str; 2] = ["rough-smooth", "hard-soft"];
 
 /// A set of textures with a common space.
@@ -133,9 +145,10 @@ pub struct Library {
     pub created_by: String,
     /// Random seed, if a program generated it.
     pub seed: Option<u64>,
-    /// Names of the attributes that the two position coordinates represent, each by its two poles, the one at 0 first;
-    /// `None` for [`USUAL_AXES`]. The names are neither empty nor equal.
-    pub axes: Option<[String; 2]>,
+    /// Names of the axes of the positions, one to [`MOST_AXES`](shagreen_core::space::MOST_AXES): attributes by their two
+    /// poles, the one at 0 first, or features of the vibration such as `centroid`. `None` for [`USUAL_AXES`]. The names are
+    /// neither empty nor equal. Every position has one coordinate for each of them.
+    pub axes: Option<Vec<String>>,
     /// How its space was built and validated: a JSON object in the form that `shagreen space build` prints.
     pub space_report: Option<Value>,
     /// The textures, identified by their index here. Their `id`s are unique.
@@ -163,7 +176,7 @@ pub struct TextureEntry {
     pub description: String,
     /// Position in the space, if assigned.
     pub place: Option<Place>,
-    /// Attribute values; two of the attributes may be the axes of the space.
+    /// Attribute values; some of the attributes may be axes of the space.
     pub attributes: Option<Attributes>,
     /// Measured or simulated physical quantities, if known.
     pub physical: Option<PhysicalLabels>,
@@ -184,7 +197,8 @@ pub struct Place {
     pub at: SpacePoint,
     /// What the position was derived from.
     pub source: LabelSource,
-    /// Standard deviation of an estimated position on both axes, 0 to 100; `None` if it is not known.
+    /// Standard deviation of an estimated position on its first two axes, 0 to 100; the second is 0 in a space with one
+    /// axis. `None` if it is not known.
     pub deviation: Option<[f64; 2]>,
 }
 
@@ -295,9 +309,9 @@ impl Library {
         self.textures.iter().position(|texture| texture.id == id)
     }
 
-    /// Names of the attributes that the two position coordinates represent.
-    pub fn axis_names(&self) -> [&str; 2] {
-        self.axes.as_ref().map_or(USUAL_AXES, |axes| axes.each_ref().map(String::as_str))
+    /// Names of the axes of the positions, one to six, in the order of the coordinates.
+    pub fn axis_names(&self) -> Vec<&str> {
+        names_or_usual(self.axes.as_deref())
     }
 
     /// Positions of all textures, indexed as [`Library::textures`]; the input of a space.
@@ -335,6 +349,11 @@ impl Library {
     pub fn license_of<'a>(&'a self, texture: &'a TextureEntry) -> &'a str {
         if texture.license.is_empty() { &self.license } else { &texture.license }
     }
+}
+
+/// These names of axes, or else [`USUAL_AXES`].
+pub(crate) fn names_or_usual(axes: Option<&[String]>) -> Vec<&str> {
+    axes.map_or_else(|| USUAL_AXES.to_vec(), |axes| axes.iter().map(String::as_str).collect())
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ mod photo;
 mod photo_limits;
 mod png_chunks;
 mod tiff_photo;
+mod tiff_tags;
 mod webp_chunks;
 
 pub use self::error::PictureError;

@@ -8,17 +8,21 @@
 //! `source` states what the positions were derived from: `human`, `simulated`, `physical` or `estimated`. Without this
 //! column, the source that the caller states applies to the whole table. Without `rs` and `hs`, the columns
 //! `rough-smooth` and `hard-soft` hold the position. The axes of a space may be other attributes: the position columns
-//! are then named `x:` and `y:` followed by the attribute, such as `x:warm-cold`. A table on another [`Scale`] is
-//! converted to 0 to 100. Other columns are not used.
+//! are then named `x:` and `y:` followed by the attribute, such as `x:warm-cold`. Further axes, up to six, have the columns
+//! `z:`, `u:`, `v:` and `w:`, in this order, such as `z:sticky-slippery`. A space with one axis has only `x:`. Instead of the
+//! letters, `axis1:` to `axis6:` are read too. A table on another [`Scale`] is converted to 0 to 100. Other columns are not
+//! used.
 
 use std::collections::HashMap;
 
 use shagreen_core::people::ratings::{PairNameError, SHORT_SCALE};
-use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::space::{LabelSource, MOST_AXES, SpacePoint, SpacePointError};
 
 use crate::imported::Imported;
 use crate::label_source_text::state_origin_of_places;
-use crate::library::{Attribute, Attributes, DIGITS, Library, Place, USUAL_AXES, digits, is_usual};
+use crate::library::{
+    Attribute, Attributes, DIGITS, Library, Place, USUAL_AXES, digits, is_usual, names_or_usual,
+};
 use crate::named_table::{Field, NamedTable, NamedTableError, write_table};
 use crate::pair_columns::{NAME_BOTH_POLES, is_attribute, pair_columns, unused_warning};
 
@@ -77,15 +81,15 @@ pub struct Placement {
     pub id: String,
     /// Position in the space.
     pub place: Place,
-    /// Values of all attributes in the table, the two axes first.
+    /// Values of all attributes in the table, the axes first.
     pub attributes: Attributes,
 }
 
 /// Positions of textures from a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Places {
-    /// Names of the two axes, if they are not [`USUAL_AXES`].
-    pub axes: Option<[String; 2]>,
+    /// Names of the axes, if they are not [`USUAL_AXES`].
+    pub axes: Option<Vec<String>>,
     /// The textures.
     pub placements: Vec<Placement>,
 }
@@ -153,7 +157,7 @@ pub enum PlacesCsvError {
         /// What is wrong.
         source: PairNameError,
     },
-    /// Only one of the two axes is named.
+    /// An axis is named, but not the one before it, or only the second one.
     #[error(
         "the column \"{column}\" is one axis of a position; name the other axis column too, as \"{missing}\" followed by its attribute"
     )]
@@ -163,12 +167,15 @@ pub enum PlacesCsvError {
         /// Prefix of the missing column name.
         missing: &'static str,
     },
-    /// Both axes have the same name.
+    /// Two axes have the same name.
     #[error("both axes are \"{name}\"; use two different attributes, such as x:warm-cold and y:flat-bumpy")]
     OneAxis {
         /// The name.
         name: String,
     },
+    /// The coordinates of a texture are not those of a position.
+    #[error(transparent)]
+    Point(#[from] SpacePointError),
     /// A label source is unknown.
     #[error("source in line {line} is \"{found}\"; use human, simulated, physical or estimated")]
     Source {
@@ -184,8 +191,10 @@ pub enum PlacesCsvError {
     NoSource,
 }
 
-/// Prefixes of position columns on other axes than the usual ones.
-const PLACE_ON: [&str; 2] = ["x:", "y:"];
+/// Prefixes of position columns on other axes than the two usual ones.
+const PLACE_ON: [&str; MOST_AXES] = ["x:", "y:", "z:", "u:", "v:", "w:"];
+/// Other prefixes of the same columns, which are read but not written.
+const NUMBERED: [&str; MOST_AXES] = ["axis1:", "axis2:", "axis3:", "axis4:", "axis5:", "axis6:"];
 /// Short names of the columns of the usual axes.
 const SHORT: [&str; 2] = ["rs", "hs"];
 
@@ -201,10 +210,11 @@ pub fn read_places(
     let table = NamedTable::read(bytes, "id, rs, hs", "texture")?;
     let id_column = table.need(&["id", "texture", "texture_id", "name"])?;
     let (place_columns, axes) = place_columns(&table)?;
-    let [across, up] = place_columns;
-    let names = axes.as_ref().map_or(USUAL_AXES, |axes| axes.each_ref().map(String::as_str));
+    let names = names_or_usual(axes.as_deref());
     let source_column = table.find(&["source", "label_source"]);
-    let others = table.others(&[Some(id_column), Some(across), Some(up), source_column]);
+    let taken: Vec<Option<usize>> =
+        [Some(id_column), source_column].into_iter().chain(place_columns.iter().copied().map(Some)).collect();
+    let others = table.others(&taken);
     let columns = pair_columns(&table, &others, |field| value(field, scale).is_ok())
         .map_err(|source| PlacesCsvError::Pair { line: table.first_line, source })?;
     // An attribute may have a one-word name, unlike a rated adjective pair.
@@ -226,7 +236,8 @@ pub fn read_places(
             let blank = || PlacesCsvError::Blank { id: id.to_owned(), column: field.name().to_owned(), line };
             in_scale(field, field.number()?.ok_or_else(blank)?, scale)
         };
-        let point = SpacePoint { rough_smooth: needed(row.at(across))?, hard_soft: needed(row.at(up))? };
+        let coordinates: Vec<f64> =
+            place_columns.iter().map(|column| needed(row.at(*column))).collect::<Result<_, _>>()?;
         let stated = source_column.map(|column| row.at(column).text()).filter(|text| !text.is_empty());
         let source = match stated {
             Some(text) => LabelSource::from_id(&text.to_lowercase())
@@ -235,11 +246,11 @@ pub fn read_places(
         };
         let axis = |name: &str, value: f64| Attribute { name: name.to_owned(), value };
         let mut values = Vec::new();
-        for (name, value) in names.into_iter().zip([point.rough_smooth, point.hard_soft]) {
+        for (name, value) in names.iter().zip(&coordinates) {
             // If the table also has this attribute as a column, its rated value is kept; it may differ from the
             // position.
             if attribute_columns.iter().all(|column| !row.at(*column).name().eq_ignore_ascii_case(name)) {
-                values.push(axis(name, value));
+                values.push(axis(name, *value));
             }
         }
         for column in &attribute_columns {
@@ -249,34 +260,50 @@ pub fn read_places(
             }
         }
         let attributes = Attributes { source, values };
-        placements.push(Placement { id: id.to_owned(), place: Place::new(point, source), attributes });
+        let place = Place::new(SpacePoint::of(&coordinates)?, source);
+        placements.push(Placement { id: id.to_owned(), place, attributes });
     }
     let warning = unused_warning(&table, &unused, NAME_BOTH_POLES);
     Ok(Imported { value: Places { axes, placements }, warnings: warning.into_iter().collect() })
 }
 
-/// Returns the position columns, and the axis names if they are not the usual ones.
-fn place_columns(table: &NamedTable) -> Result<([usize; 2], Option<[String; 2]>), PlacesCsvError> {
-    let named = PLACE_ON.map(|prefix| {
+/// A column of positions, with the name of its axis.
+type PlaceColumn = (usize, String);
+
+/// Returns the position columns, in the order of the axes, and the axis names if they are not the usual ones.
+fn place_columns(table: &NamedTable) -> Result<(Vec<usize>, Option<Vec<String>>), PlacesCsvError> {
+    let column_of = |prefix: &str| {
         table.columns.iter().enumerate().find_map(|(column, name)| {
             let start = name.get(..prefix.len()).filter(|start| start.eq_ignore_ascii_case(prefix))?;
             let name = name[start.len()..].trim();
             (!name.is_empty()).then(|| (column, name.to_owned()))
         })
-    });
-    if let [Some((across, first)), Some((up, second))] = named {
-        if first.eq_ignore_ascii_case(&second) {
-            return Err(PlacesCsvError::OneAxis { name: first });
+    };
+    let mut named: [Option<PlaceColumn>; MOST_AXES] =
+        std::array::from_fn(|axis| column_of(PLACE_ON[axis]).or_else(|| column_of(NUMBERED[axis])));
+    let usual = [0, 1].map(|axis| table.find(&[SHORT[axis], USUAL_AXES[axis]]));
+    if named[..2].iter().all(Option::is_none) {
+        for (axis, name) in USUAL_AXES.into_iter().enumerate() {
+            let column = table.need(&[SHORT[axis], name])?;
+            named[axis] = Some((column, name.to_owned()));
         }
-        let axes = [first, second];
-        return Ok(([across, up], (!is_usual(&axes)).then_some(axes)));
     }
-    if let Some((column, _)) = named.iter().flatten().next() {
-        let missing = PLACE_ON[usize::from(named[0].is_some())];
-        return Err(PlacesCsvError::HalfAPlace { column: table.columns[*column].clone(), missing });
+    let n_axes = named.iter().take_while(|column| column.is_some()).count();
+    let after = named.iter().skip(n_axes).flatten().next();
+    // One axis is a space, unless the table has a column of the second usual axis.
+    let half = if n_axes == 1 && usual.iter().any(Option::is_some) { named[0].as_ref() } else { None };
+    if let Some((column, _)) = after.or(half) {
+        let column = table.columns[*column].clone();
+        return Err(PlacesCsvError::HalfAPlace { column, missing: PLACE_ON[n_axes] });
     }
-    let needed = |axis: usize| table.need(&[SHORT[axis], USUAL_AXES[axis]]);
-    Ok(([needed(0)?, needed(1)?], None))
+    let (columns, names): (Vec<usize>, Vec<String>) = named.into_iter().flatten().unzip();
+    for (index, name) in names.iter().enumerate() {
+        if names[..index].iter().any(|other| other.eq_ignore_ascii_case(name)) {
+            return Err(PlacesCsvError::OneAxis { name: names[index].clone() });
+        }
+    }
+    let axes = (!is_usual(&names)).then_some(names);
+    Ok((columns, axes))
 }
 
 /// Returns the value of an attribute, 0 to 100; `None` if the field is empty.
@@ -301,8 +328,8 @@ fn in_scale(field: Field<'_>, value: f64, scale: Scale) -> Result<f64, PlacesCsv
 /// Returns the lowest and highest coordinate if several placements look as if they used another scale than 0 to 100:
 /// none is above [`SHORT_SCALE`].
 pub fn looks_rescaled(placements: &[Placement]) -> Option<(f64, f64)> {
-    let all = placements.iter().flat_map(|p| [p.place.at.rough_smooth, p.place.at.hard_soft]);
-    let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(v), high.max(v)));
+    let all = placements.iter().flat_map(|p| p.place.at.coordinates());
+    let (low, high) = all.fold((f64::INFINITY, 0.0_f64), |(low, high), v| (low.min(*v), high.max(*v)));
     (placements.len() > 1 && high <= SHORT_SCALE).then_some((low, high))
 }
 
@@ -335,18 +362,22 @@ pub fn places_csv(library: &Library) -> Vec<u8> {
         }
     }
     let number = |value: f64| format!("{}", digits(value, DIGITS));
-    let [across, up] = [0, 1].map(|axis| {
-        let named = library.axes.as_ref().map(|axes| format!("{}{}", PLACE_ON[axis], axes[axis]));
-        named.unwrap_or_else(|| SHORT[axis].to_owned())
-    });
-    let first = ["id", &across, &up, "source"].into_iter().chain(names.iter().copied());
+    let axes: Vec<String> = match &library.axes {
+        Some(axes) => PLACE_ON.iter().zip(axes).map(|(prefix, name)| format!("{prefix}{name}")).collect(),
+        None => SHORT.map(str::to_owned).to_vec(),
+    };
+    let first = ["id"]
+        .into_iter()
+        .chain(axes.iter().map(String::as_str))
+        .chain(["source"])
+        .chain(names.iter().copied());
     let rows = placed().map(|(texture, place)| {
-        let fixed = [
-            texture.id.clone(),
-            number(place.at.rough_smooth),
-            number(place.at.hard_soft),
-            place.source.id().to_owned(),
-        ];
+        // A row has as many fields as the first line.
+        let at = place.at.on(axes.len());
+        let coordinates = at.coordinates().iter().map(|coordinate| number(*coordinate));
+        let source = place.source.id().to_owned();
+        let fixed: Vec<String> =
+            [texture.id.clone()].into_iter().chain(coordinates).chain([source]).collect();
         let value = |name: &&str| {
             texture.attributes.as_ref().and_then(|a| a.get(name)).map_or_else(String::new, number)
         };
@@ -356,126 +387,4 @@ pub fn places_csv(library: &Library) -> Vec<u8> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{
-        Placement, Places, PlacesCsvError, Scale, looks_rescaled, place_textures, places_csv, read_places,
-    };
-    use crate::starter::starter_library;
-    use shagreen_core::space::LabelSource;
-
-    fn read_places_csv(bytes: &[u8], source: Option<LabelSource>) -> Result<Vec<Placement>, PlacesCsvError> {
-        read_places(bytes, source, Scale::OF_SPACE).map(|imported| imported.value.placements)
-    }
-
-    #[test]
-    fn axes_may_be_other_attributes() {
-        let text =
-            "id,X: warm-cold,y:flat-bumpy,source,warm-cold\ncork,40.5,71,human,39\nfelt,90,95,human,88\n";
-        let places = read_places(text.as_bytes(), None, Scale::OF_SPACE).unwrap().value;
-        assert_eq!(places.axes, Some(["warm-cold", "flat-bumpy"].map(str::to_owned)));
-        let cork = &places.placements[0];
-        assert_eq!((cork.place.at.rough_smooth, cork.place.at.hard_soft), (40.5, 71.0));
-        assert_eq!(cork.attributes.get("flat-bumpy"), Some(71.0));
-        assert_eq!(cork.attributes.get("warm-cold"), Some(39.0));
-        assert_eq!(cork.attributes.get("rough-smooth"), None);
-        let mut library = starter_library().unwrap();
-        place_textures(&mut library, &places);
-        assert_eq!(library.axis_names(), ["warm-cold", "flat-bumpy"]);
-        let written = places_csv(&library);
-        assert!(written.starts_with(b"id,x:warm-cold,y:flat-bumpy,source,"));
-        assert_eq!(read_places(&written, None, Scale::OF_SPACE).unwrap().value, places);
-        // A table on the usual axes removes the axis names.
-        let usual =
-            read_places(b"id,x:Rough-Smooth,y:hard-soft,source\ncork,1,2,human\n", None, Scale::OF_SPACE);
-        place_textures(&mut library, &usual.unwrap().value);
-        assert_eq!(library.axes, None);
-        let twice =
-            read_places_csv(b"id,x:a-b,y:A-B,source\ncork,1,2,human\n", None).unwrap_err().to_string();
-        assert!(twice.contains("both axes"), "{twice}");
-        let half = read_places_csv(b"id,x:a-b,hs,source\ncork,1,2,human\n", None).unwrap_err().to_string();
-        assert!(half.contains("\"x:a-b\" is one axis") && half.contains("\"y:\""), "{half}");
-        let half =
-            read_places_csv(b"id,rs,hs,y:a-b,source\ncork,1,2,3,human\n", None).unwrap_err().to_string();
-        assert!(half.contains("\"x:\""), "{half}");
-    }
-
-    #[test]
-    fn places_and_attributes_are_read() {
-        let text = "id,rs,hs,flat-bumpy,source\ncork,40.5,71,33,human\nfelt,90,95,,\n";
-        let placements = read_places_csv(text.as_bytes(), Some(LabelSource::PhysicalLabels)).unwrap();
-        let cork = &placements[0];
-        assert_eq!((cork.place.at.rough_smooth, cork.place.at.hard_soft), (40.5, 71.0));
-        assert_eq!(cork.place.source, LabelSource::HumanRatings);
-        assert_eq!(cork.attributes.get("flat-bumpy"), Some(33.0));
-        assert_eq!(cork.attributes.get("hard-soft"), Some(71.0));
-        assert_eq!(placements[1].place.source, LabelSource::PhysicalLabels);
-        assert_eq!(placements[1].attributes.values.len(), 2);
-        let by_poles = "texture;Rough-Smooth;Hard-Soft\ncork;40,5;71\n";
-        let placements = read_places_csv(by_poles.as_bytes(), Some(LabelSource::HumanRatings)).unwrap();
-        assert_eq!(placements[0].place.at.rough_smooth, 40.5);
-    }
-
-    #[test]
-    fn a_library_is_placed_again_by_its_own_table() {
-        let text =
-            "id,rs,hs,source,rough-smooth,flat-bumpy\ncork,40.5,71,human,39,33\nfelt,90,95,simulated,,12.5\n";
-        let placements = read_places_csv(text.as_bytes(), None).unwrap();
-        assert_eq!(placements[0].attributes.get("rough-smooth"), Some(39.0));
-        let mut library = starter_library().unwrap();
-        let missing = place_textures(&mut library, &Places { axes: None, placements: placements.clone() });
-        assert_eq!((missing.len(), missing.contains(&"cork".to_owned())), (23, false));
-        let again = read_places_csv(&places_csv(&library), None).unwrap();
-        assert_eq!(again, placements);
-    }
-
-    #[test]
-    fn another_scale_is_brought_to_that_of_the_space() {
-        let text = "id,rs,hs,flat-bumpy\ncork,1,7,\nfelt,4,\"2,5\",6\n";
-        let read = |scale| read_places(text.as_bytes(), Some(LabelSource::HumanRatings), scale);
-        let placements = read(Scale::new(1.0, 7.0).unwrap()).unwrap().value.placements;
-        let at = |i: usize| (placements[i].place.at.rough_smooth, placements[i].place.at.hard_soft);
-        assert_eq!((at(0), at(1)), ((0.0, 100.0), (50.0, 25.0)));
-        assert_eq!(placements[1].attributes.get("rough-smooth"), Some(50.0));
-        assert!((placements[1].attributes.get("flat-bumpy").unwrap() - 500.0 / 6.0).abs() < 1e-12);
-        assert_eq!(looks_rescaled(&placements), None);
-        assert_eq!(looks_rescaled(&read(Scale::OF_SPACE).unwrap().value.placements), Some((1.0, 7.0)));
-        assert_eq!(looks_rescaled(&read(Scale::OF_SPACE).unwrap().value.placements[..1]), None);
-        let message = read(Scale::new(1.0, 6.0).unwrap()).unwrap_err().to_string();
-        assert!(message.contains("hs in line 2 is 7; it must be between 1 and 6"), "{message}");
-        for (low, high) in [(7.0, 1.0), (1.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY), (-1e308, 1e308)] {
-            assert!(Scale::new(low, high).is_err(), "{low} {high}");
-        }
-        // Rounding stays within both the space and the scale of the table.
-        let odd = Scale::new(0.1, 0.7).unwrap();
-        assert_eq!((odd.to_space(0.1), odd.to_space(0.7)), (0.0, 100.0));
-        assert_eq!(Scale::OF_SPACE.to_space(28.999_999_999_999_996), 28.999_999_999_999_996);
-    }
-
-    #[test]
-    fn other_columns_are_named_and_not_used() {
-        let text = "id,rs,hs,warm,color,flat-bumpy,start-time,age\ncork,40,71,5,red,33,12:30,5\n";
-        let read = read_places(text.as_bytes(), Some(LabelSource::HumanRatings), Scale::OF_SPACE).unwrap();
-        let names: Vec<&str> =
-            read.value.placements[0].attributes.values.iter().map(|a| a.name.as_str()).collect();
-        assert_eq!(names, ["rough-smooth", "hard-soft", "warm", "flat-bumpy"]);
-        assert!(read.warnings[0].starts_with("the columns color, start-time, age are not used;"), "{read:?}");
-    }
-
-    #[test]
-    fn what_places_nothing_says_why() {
-        let check = |text: &str, words: &str| {
-            let message = read_places_csv(text.as_bytes(), Some(LabelSource::HumanRatings)).unwrap_err();
-            assert!(message.to_string().contains(words), "{message}");
-        };
-        check("id,rs,hs\na,1,2\na,3,4\n", "line 2 and again in line 3");
-        check("id,rs,hs\na,,2\n", "rs of \"a\" is empty");
-        check("id,rs,hs\na,101,2\n", "rs in line 2 is 101; it must be between 0 and 100");
-        check("id,rs,hs,warm-cold\na,1,2,-3\n", "warm-cold in line 2 is -3");
-        check("id,rs,hs,warm-cold\na,1,2,12:30\n", "warm-cold in line 2 is \"12:30\"");
-        check("id,rs,hs,so-so-so\na,1,2,3\n", "line 1: \"so-so-so\" can be split");
-        check("id,rs,hs,source\na,1,2,me\n", "human, simulated, physical or estimated");
-        check("id,rs\na,1\n", "\"hs\"");
-        let unsaid = read_places_csv(b"id,rs,hs\na,1,2\n", None).unwrap_err();
-        assert!(unsaid.to_string().contains("column `source`"));
-    }
-}
+mod tests;

@@ -3,20 +3,20 @@
 //! ```json
 //! {
 //!   "format": "shagreen-project",
-//!   "version": "1.2",
+//!   "version": "1.3",
 //!   "units": {"length": "mm", "time": "s"},
 //!   "created_by": "…", "notes": "…",
 //!   "library": {"built_in": "starter"},
-//!   "axes": ["warm-cold", "flat-bumpy"],
+//!   "axes": ["warm-cold", "flat-bumpy", "centroid"],
 //!   "renamed": {"cork": "Cork, sanded"}, "starred": ["oak"],
 //!   "selected": 1, "solo": "oak", "compared": [1, 3],
 //!   "authored": [{
 //!     "key": 1, "name": "Oak copy", "color": 3, "notes": "…", "tags": ["wood"],
-//!     "rough_smooth": 41.5, "hard_soft": 70.0,
+//!     "rough_smooth": 41.5, "hard_soft": 70.0, "further": [25.0],
 //!     "blend": {"mode": "field", "outside": "clamped", "weights": "barycentric", "locked": ["oak"]},
 //!     "shape": {"level_db": -3.0, "grain": 1.2, "brightness_db_per_octave": 1.0, "softness": 2.0, "friction": 0.5,
 //!       "relief": 1.5, "direction_deg": 30.0},
-//!     "path": {"along": "distance", "at_end": "turn", "length_mm": 200.0, "length_s": 3.0, "points": [[41.5, 70.0], …]},
+//!     "path": {"along": "distance", "at_end": "turn", "length_mm": 200.0, "length_s": 3.0, "points": [[41.5, 70.0, 25.0], …]},
 //!     "picture": {"media_type": "image/jpeg", "width": 256, "height": 256, "millimeters": 20.0, "base64": "…"}
 //!   }],
 //!   "snapshots": […],
@@ -32,14 +32,23 @@
 //!   have it in `locked`, and takes part in no other.
 //! - `locked` are the pinned textures of the interpolation mode Field.
 //! - `compared` are the keys of the authored textures on the sides A and B of a comparison.
-//! - `shape` has the values of [`Shape`] that are not neutral. A project with `own` textures has the
-//!   version 1.2, one with shapes 1.1, others 1.0.
+//! - `shape` has the values of [`Shape`] that are not neutral.
+//! - `rough_smooth` and `hard_soft` are the coordinates on the first two axes, whatever these are, and `further` those on the
+//!   others. A position on one axis has no `hard_soft`. Points of a path have as many numbers as the position of its texture has
+//!   coordinates. The position may have another number of them than the space, if its library has changed.
+//! - `axes` are one to six names: axes of the positions, attributes, or features of the vibration (`centroid`, `speed exponent`,
+//!   `force exponent`, `tap frequency`). If several have the same name, it is that of the first of these; `attribute:` before a
+//!   name selects the attribute. Before version 1.3, the two names are those of attributes. Without `axes`, the textures have the
+//!   positions of `space` or of the library.
+//! - A project has version 1.3 if a position in it has another number of coordinates than two, or if its `axes` are not two
+//!   attributes; otherwise 1.2 if it has `own` textures, 1.1 if it has shapes, or 1.0.
 //! - `snapshots` are saved states of authored textures.
 //! - `space` is a space that was built in this project; it gives the textures their positions, in the library format.
 //!
 //! Unknown fields of the project or of an authored texture are kept and written back. A file of a higher major version
 //! is rejected.
 
+mod axes;
 pub mod clipboard;
 mod error;
 mod listed_ids;
@@ -49,6 +58,7 @@ mod shape;
 mod v1;
 mod write;
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -66,6 +76,7 @@ use crate::picture::Picture;
 use crate::placed_space::PlacedSpace;
 use crate::starter::SimulatedLibraryError;
 
+pub use crate::project::axes::{ATTRIBUTE_PREFIX, plain_axis_name};
 pub use crate::project::error::ProjectError;
 pub use crate::project::own::OwnTextures;
 pub use crate::project::read::{read_project, read_project_on, sha256_hex};
@@ -76,7 +87,7 @@ pub const FORMAT: &str = "shagreen-project";
 /// Supported major version; files of another one are rejected.
 pub const VERSION_MAJOR: u32 = 1;
 /// Highest minor version that is read completely; a newer one may add fields.
-pub const VERSION_MINOR: u32 = 2;
+pub const VERSION_MINOR: u32 = 3;
 /// File name extension.
 pub const EXTENSION: &str = "shagreen";
 /// Number of colors for authored textures.
@@ -103,8 +114,10 @@ pub struct Project {
     pub renamed: BTreeMap<String, String>,
     /// Identifiers of favorite textures.
     pub starred: BTreeSet<String>,
-    /// Names of the attributes used as horizontal and vertical axis; `None` uses the positions.
-    pub axes: Option<[String; 2]>,
+    /// Names of the axes, one to [`MOST_AXES`](shagreen_core::space::MOST_AXES), the horizontal one first, then the vertical
+    /// one: axes of the positions, attributes or features of the vibration. One that begins with [`ATTRIBUTE_PREFIX`] is an
+    /// attribute. `None` uses the positions.
+    pub axes: Option<Vec<String>>,
     /// The space that gives the textures their positions and attributes; `None` keeps those of the files.
     pub space: Option<Arc<PlacedSpace>>,
     /// The library of textures to interpolate from.
@@ -223,6 +236,16 @@ impl BlendChoice {
         }
     }
 
+    /// Returns the options as they apply in a space with this number of axes. Modes that interpolate in triangles need a space
+    /// with one or two axes; with more, the mode is [`Mode::Field`].
+    #[must_use]
+    pub fn in_space(&self, n_axes: usize) -> Cow<'_, Self> {
+        if Blending::from(self.mode).check_in(n_axes).is_ok() {
+            return Cow::Borrowed(self);
+        }
+        Cow::Owned(Self { mode: Mode::Field, ..self.clone() })
+    }
+
     /// Returns whether the selected mode supports pinned textures.
     pub fn can_lock(&self) -> bool {
         self.mode == Mode::Field
@@ -240,7 +263,7 @@ impl AuthoredTexture {
         (self.at, &self.blend, self.shape, &self.path) == (other.at, &other.blend, other.shape, &other.path)
     }
 
-    /// Creates a texture at the center of the space, with the first color.
+    /// Creates a texture at the center of a space with two axes, with the first color.
     pub fn new(key: u32, name: &str) -> Self {
         Self {
             key,
@@ -248,7 +271,7 @@ impl AuthoredTexture {
             color: 0,
             notes: String::new(),
             tags: Vec::new(),
-            at: SpacePoint { rough_smooth: 50.0, hard_soft: 50.0 },
+            at: SpacePoint::plane(50.0, 50.0),
             blend: BlendChoice::default(),
             shape: Shape::default(),
             path: None,

@@ -7,21 +7,25 @@
 //!
 //! - `sticky-slippery` decreases with the friction coefficient, scaled to the range of the library;
 //! - `flat-bumpy` decreases with the logarithm of the spectral centroid, because long wavelengths are bumps;
-//! - `irritating-pleasant` is 0.7 `rough-smooth` + 0.3 `hard-soft`, if these are the axes.
+//! - `irritating-pleasant` is 0.7 `rough-smooth` + 0.3 `hard-soft`, if these are the first two axes.
+//!
+//! Axes that are computed from the vibration, and dimensions of a perceptual space, are not rated.
 //!
 //! No person stated this: these are assumptions of a simulation for testing the pipeline.
 
 use shagreen_core::people::property::{ZeroAt, axis_positions};
 use shagreen_core::people::ratings::{AdjectivePair, PairNameError};
 use shagreen_core::space::features::{Physical, physical};
+use shagreen_core::space::signal_axes::SignalAxis;
 use shagreen_core::texture::patterns::paper_patterns;
 
 use crate::library::{Library, TextureEntry, USUAL_AXES};
+use crate::placed_space::is_dimension_name;
 
 /// Attribute values of the textures that have a position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SimulatedRaterLabels {
-    /// The adjective pairs: both axes, further attributes that all these textures have, and assumed ones.
+    /// The adjective pairs: the axes, further attributes that all these textures have, and assumed ones.
     pub pairs: Vec<AdjectivePair>,
     /// Identifiers of the textures.
     pub ids: Vec<String>,
@@ -85,19 +89,23 @@ pub fn panel_labels(library: &Library) -> Result<SimulatedRaterLabels, Simulated
         |name: &&str| placed.iter().all(|t| t.attributes.as_ref().is_some_and(|a| a.get(name).is_some()));
     let names = first.attributes.iter().flat_map(|a| &a.values).map(|a| a.name.as_str());
     let axes = library.axis_names();
-    let further: Vec<&str> = names.filter(|name| !axes.contains(name)).filter(is_known_to_all).collect();
-    let pairs = axes.iter().chain(&further).map(|name| name.parse());
+    let rated: Vec<(usize, &str)> =
+        axes.iter().copied().enumerate().filter(|(_, name)| can_be_rated(name)).collect();
+    let further: Vec<&str> =
+        names.filter(|name| !axes.contains(name) && can_be_rated(name)).filter(is_known_to_all).collect();
+    let pairs = rated.iter().map(|(_, name)| name).chain(&further).map(|name| name.parse());
     let of = |texture: &&TextureEntry| -> Option<Vec<f64>> {
-        let at = texture.at()?;
+        let at = texture.at()?.on(axes.len());
+        let coordinates = rated.iter().filter_map(|(axis, _)| at.get(*axis));
         let attributes = further.iter().filter_map(|name| texture.attributes.as_ref()?.get(name));
-        Some([at.rough_smooth, at.hard_soft].into_iter().chain(attributes).collect())
+        Some(coordinates.chain(attributes).collect())
     };
     let mut perceived = SimulatedRaterLabels {
         pairs: pairs.collect::<Result<_, _>>()?,
         ids: placed.iter().map(|texture| texture.id.clone()).collect(),
         labels: placed.iter().filter_map(of).collect(),
     };
-    for (name, values) in assumed(&placed, axes == USUAL_AXES) {
+    for (name, values) in assumed(&placed, axes.starts_with(&USUAL_AXES)) {
         let assumed: AdjectivePair = name.parse()?;
         let turned = AdjectivePair { low: assumed.high.clone(), high: assumed.low.clone() };
         let is_known = perceived.pairs.iter().any(|pair| *pair == assumed || *pair == turned);
@@ -110,8 +118,13 @@ pub fn panel_labels(library: &Library) -> Result<SimulatedRaterLabels, Simulated
     Ok(perceived)
 }
 
+/// Whether an axis or attribute can be rated: it is neither computed from the vibration nor a dimension of a perceptual space.
+fn can_be_rated(name: &str) -> bool {
+    SignalAxis::from_name(name).is_none() && !is_dimension_name(name)
+}
+
 /// Returns the assumed values of the positioned textures, 0..100; `None` if a quantity is missing or equal for all.
-/// Values derived from the axes need the usual axes.
+/// Values derived from the axes need the usual ones as the first two.
 fn assumed(placed: &[&TextureEntry], is_usual: bool) -> [(&'static str, Option<Vec<f64>>); 3] {
     let contacts = paper_patterns();
     let physical: Vec<Physical> = placed.iter().map(|texture| physical(&texture.model, &contacts)).collect();
@@ -119,7 +132,7 @@ fn assumed(placed: &[&TextureEntry], is_usual: bool) -> [(&'static str, Option<V
         let values: Option<Vec<f64>> = physical.iter().map(quantity).collect();
         axis_positions(&values?, ZeroAt::HighRatings)
     };
-    let pleasant = placed.iter().map(|t| t.at().map(|at| 0.7 * at.rough_smooth + 0.3 * at.hard_soft));
+    let pleasant = placed.iter().map(|t| t.at().map(|at| 0.7 * at.x() + 0.3 * at.y()));
     [
         ("flat-bumpy", falling(|p| p.centroid_hz.map(f64::ln))),
         ("sticky-slippery", falling(|p| p.friction)),
@@ -165,8 +178,28 @@ mod tests {
             assert_eq!(*row, [100.0 - all[3], all[0]]);
         }
         // The position takes precedence over the attribute of the same name.
-        assert_eq!(labels.labels[4][1], library.textures[5].at().unwrap().hard_soft);
+        assert_eq!(labels.labels[4][1], library.textures[5].at().unwrap().y());
         assert_eq!(labels.labels[4][2], 5.0);
         assert_eq!(panel_labels(&Library::default()), Err(SimulatedRaterLabelsError::NoPlaces));
+    }
+
+    #[test]
+    fn further_axes_are_perceived_unless_nobody_rates_them() {
+        let mut library = starter_library().unwrap();
+        let axes = ["rough-smooth", "hard-soft", "centroid", "warm-cold"];
+        library.axes = Some(axes.map(str::to_owned).to_vec());
+        for (i, texture) in library.textures.iter_mut().enumerate() {
+            let place = texture.place.as_mut().unwrap();
+            place.at = place.at.on(4).with(3, i as f64);
+            let values = vec![Attribute { name: "dimension 3".to_owned(), value: 1.0 }];
+            texture.attributes = Some(Attributes { source: LabelSource::SimulatedRaters, values });
+        }
+        let labels = panel_labels(&library).unwrap();
+        let names: Vec<String> = labels.pairs.iter().map(AdjectivePair::name).collect();
+        let expected = ["rough-smooth", "hard-soft", "warm-cold", "flat-bumpy", "sticky-slippery"];
+        assert_eq!(names[..5], expected);
+        let at = library.textures[7].at().unwrap();
+        assert_eq!(labels.labels[7][..3], [at.x(), at.y(), 7.0]);
+        assert!(labels.labels.iter().all(|of| of.len() == names.len()));
     }
 }

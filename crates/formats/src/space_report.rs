@@ -226,7 +226,7 @@ fn positions(build: &SpaceBuild) -> Vec<Value> {
     let position = |(i, id): (usize, &String)| {
         json!({
             "id": id,
-            "at": [build.positions[i].rough_smooth, build.positions[i].hard_soft],
+            "at": build.positions[i].coordinates(),
             "felt": [first.felt[i], second.felt[i]],
             "felt_deviation": build.stability.as_ref().map(|stability| stability.deviations[i]),
             "felt_standard_error": build.perceptual.is_none().then(|| standard_errors(build, i)),

@@ -128,8 +128,8 @@ mod tests {
             assert_eq!((&anchor.material.id, anchor.place), (&texture.id, texture.at().unwrap()));
             let [rough_smooth, hard_soft] = span.axes(&texture.physical.unwrap().into());
             // The file stores three decimals.
-            assert!((rough_smooth - anchor.place.rough_smooth).abs() < 0.1, "{}", texture.id);
-            assert!((hard_soft - anchor.place.hard_soft).abs() < 0.1, "{}", texture.id);
+            assert!((rough_smooth - anchor.place.x()).abs() < 0.1, "{}", texture.id);
+            assert!((hard_soft - anchor.place.y()).abs() < 0.1, "{}", texture.id);
         }
     }
 
@@ -144,7 +144,7 @@ mod tests {
             let at = texture.at().unwrap();
             let reported = &report["positions"][i];
             assert_eq!(reported["id"], texture.id.as_str());
-            assert!((reported["at"][0].as_f64().unwrap() - at.rough_smooth).abs() < 1e-3);
+            assert!((reported["at"][0].as_f64().unwrap() - at.x()).abs() < 1e-3);
             let attributes = texture.attributes.as_ref().unwrap();
             assert_eq!((attributes.values.len(), attributes.source), (5, LabelSource::SimulatedRaters));
         }

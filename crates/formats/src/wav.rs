@@ -43,8 +43,9 @@ pub struct SidecarV1 {
     pub name: Option<String>,
     /// Identifier of the texture, if a library texture was rendered.
     pub texture: Option<String>,
-    /// Position in the space, rough-smooth and hard-soft (0..100), if an authored texture was rendered.
-    pub at: Option<[f64; 2]>,
+    /// Position in the space, one coordinate (0..100) for each axis, usually rough-smooth and hard-soft, if an authored
+    /// texture was rendered.
+    pub at: Option<Vec<f64>>,
     /// Whether that position was moved to the convex hull of the textures.
     pub clamped: bool,
     /// Whether the texture was extrapolated to a position outside the convex hull, beyond all measurements.
@@ -270,7 +271,7 @@ mod tests {
             seconds: 0.003,
             name: None,
             texture: None,
-            at: Some([30.0, 70.0]),
+            at: Some(vec![30.0, 70.0]),
             clamped: false,
             extrapolated: false,
             blend: "shared".into(),

@@ -11,7 +11,7 @@ use shagreen_core::texture::stick_slip::StickSlip;
 use shagreen_core::texture::tap::Tap;
 use shagreen_core::texture::{Grain, Interpolation, TextureModel};
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
-use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
+use shagreen_formats::library::{Library, Place, Provenance, TextureEntry, read_library, write_library};
 use shagreen_formats::picture::{PictureFormat, decode};
 
 const V1_0: &[u8] = include_bytes!("golden/library-1.0.json");
@@ -22,6 +22,7 @@ const V1_4: &[u8] = include_bytes!("golden/library-1.4.json");
 const V1_5: &[u8] = include_bytes!("golden/library-1.5.json");
 const V1_6: &[u8] = include_bytes!("golden/library-1.6.json");
 const V1_7: &[u8] = include_bytes!("golden/library-1.7.json");
+const V1_8: &[u8] = include_bytes!("golden/library-1.8.json");
 
 /// Reads a library without warnings.
 fn read(bytes: &[u8]) -> Library {
@@ -44,7 +45,7 @@ fn check_cork(texture: &TextureEntry) {
     assert_eq!((texture.origin.as_str(), texture.description.as_str()), ("A board.", "Pressed."));
     assert_eq!(texture.provenance, Provenance::Free);
     let place = texture.place.unwrap();
-    assert_eq!((place.at.rough_smooth, place.at.hard_soft), (40.5, 71.25));
+    assert_eq!((place.at.x(), place.at.y()), (40.5, 71.25));
     assert_eq!(place.source, LabelSource::PhysicalLabels);
     let physical = texture.physical.unwrap();
     assert_eq!((physical.roughness_log10_mps2, physical.hardness_log10_n_per_m), (-0.5, 4.25));
@@ -137,7 +138,7 @@ fn version_1_4() {
         .map(|key| {
             let model = &key.model;
             let level = model.nodes()[0].level_mps2;
-            (key.stop.at.rough_smooth, key.stop.along, key.is_stop, model.friction(), level)
+            (key.stop.at.x(), key.stop.along, key.is_stop, model.friction(), level)
         })
         .collect();
     let expected = [
@@ -225,6 +226,24 @@ fn version_1_7() {
 }
 
 #[test]
+fn version_1_8() {
+    let library = read(V1_8);
+    check_head(&library, "1.8");
+    check_cork(&library.textures[0]);
+    assert_eq!(library.axis_names(), ["warm-cold", "flat-bumpy", "sticky-slippery", "centroid"]);
+    let cork = library.textures[0].at().unwrap();
+    assert_eq!(cork.coordinates(), [40.5, 71.25, 12.25, 66.5]);
+    let last = library.textures[2].place.unwrap();
+    assert_eq!((last.at.coordinates(), last.deviation), (&[1.5, 2.0, 3.25, 4.0][..], Some([5.0, 6.5])));
+    let keys = library.textures[0].path.as_ref().unwrap().keys();
+    let points: Vec<&[f64]> = keys.iter().map(|key| key.stop.at.coordinates()).collect();
+    assert_eq!(points, [[30.0, 70.25, 10.0, 20.5], [35.0, 60.0, 15.0, 25.5], [40.0, 50.0, 100.0, 0.0]]);
+    // All else is as in version 1.7.
+    assert_eq!(library.textures[0].model, read(V1_7).textures[0].model);
+    assert_eq!(read(&write_library(&library)), library);
+}
+
+#[test]
 fn layers_that_are_none_are_refused() {
     let edits: [(&str, Value, &str); 15] = [
         ("/anchors_along/0/level_mps2", Value::Null, "entry 0 of `anchors_along`"),
@@ -295,18 +314,26 @@ fn paths_that_lead_nowhere_are_refused() {
 }
 
 #[test]
-fn axes_are_two_attributes() {
-    for axes in [json!(["warm-cold"]), json!(["a-b", "a-b"]), json!(["", "a-b"]), json!(["a", "b", "c"])] {
+fn axes_are_one_to_six_different_names() {
+    let seven = json!(["a", "b", "c", "d", "e", "f", "g"]);
+    for axes in [json!([]), json!(["a-b", "A-B"]), json!(["", "a-b"]), json!(["a", "b", "a"]), seven] {
         let mut value: Value = serde_json::from_slice(V1_3).unwrap();
         value["axes"] = axes;
         let message = read_library(value.to_string().as_bytes()).unwrap_err().to_string();
-        assert!(message.contains("two different attribute names"), "{message}");
+        assert!(message.contains("one to six different names"), "{message}");
+    }
+    for (axes, n_axes) in [(json!(["warm-cold"]), 1), (json!(["a", "b", "c"]), 3)] {
+        let mut value: Value = serde_json::from_slice(V1_3).unwrap();
+        value["axes"] = axes;
+        let message = read_library(value.to_string().as_bytes()).unwrap_err().to_string();
+        let words = format!("texture \"cork\" has 2 coordinates, but the number of axes is {n_axes}");
+        assert!(message.contains(&words), "{message}");
     }
 }
 
 #[test]
 fn what_is_not_known_is_written_back() {
-    for golden in [V1_0, V1_1, V1_2, V1_3, V1_4, V1_5, V1_6, V1_7] {
+    for golden in [V1_0, V1_1, V1_2, V1_3, V1_4, V1_5, V1_6, V1_7, V1_8] {
         let before: Value = serde_json::from_slice(golden).unwrap();
         let after: Value = serde_json::from_slice(&write_library(&read(golden))).unwrap();
         assert_eq!(after, before);
@@ -319,6 +346,14 @@ fn a_library_says_the_lowest_version_that_has_what_it_uses() {
         let value: Value = serde_json::from_slice(&write_library(library)).unwrap();
         value["version"].as_str().unwrap().to_owned()
     };
+    let mut library = read(V1_8);
+    library.axes = read(V1_7).axes;
+    for texture in &mut library.textures {
+        texture.place = texture.place.map(|place| Place { at: place.at.on(2), ..place });
+    }
+    assert_eq!(version(&library), "1.8", "the keys of a path have four coordinates");
+    library.textures[0].path = read(V1_7).textures[0].path.clone();
+    assert_eq!(version(&library), "1.7");
     let mut library = read(V1_7);
     let model = library.textures[0].model.clone();
     let path = library.textures[0].path.take();

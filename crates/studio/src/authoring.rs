@@ -15,7 +15,8 @@ use shagreen_formats::library::{Library, TextureEntry};
 
 use crate::report::Reporter;
 
-/// Returns the space of a library, with the texture models that the interpolation mode needs.
+/// Returns the space of a library, with the texture models that the interpolation mode needs. In a space without triangles,
+/// every mode is the field, which needs them.
 ///
 /// # Errors
 /// The positions cannot be triangulated, or the textures have no common rate.
@@ -23,7 +24,8 @@ pub fn authoring(library: &Library, mode: Mode, reporter: &dyn Reporter) -> anyh
     let space = Space::new(&library.positions())
         .context("cannot compute the space from the positions of the textures")?;
     let authoring = Authoring::new(space);
-    if !mode.makes_a_model() || authoring.space().sites().is_empty() {
+    let makes_a_model = mode.makes_a_model() || !authoring.space().is_triangulated();
+    if !makes_a_model || authoring.space().sites().is_empty() {
         return Ok(authoring);
     }
     let placed: Vec<usize> = authoring.space().sites().iter().map(|(texture, _)| *texture).collect();

@@ -18,7 +18,7 @@ macro_rules! page {
 }
 
 /// All pages, the table of contents first.
-pub static PAGES: [GuidePage; 45] = [
+pub static PAGES: [GuidePage; 46] = [
     page!("index"),
     page!("first-steps"),
     page!("terms"),
@@ -28,6 +28,7 @@ pub static PAGES: [GuidePage; 45] = [
     page!("touch"),
     page!("shape-a-texture"),
     page!("interpolation-modes"),
+    page!("more-axes"),
     page!("strokes"),
     page!("compare-textures"),
     page!("pens-and-strokes"),

@@ -14,6 +14,7 @@
 
 pub mod about;
 pub mod authoring;
+pub mod axes;
 pub mod driven_channels;
 pub mod export;
 pub mod felt;

@@ -7,7 +7,7 @@ use anyhow::{Context as _, bail};
 use shagreen_core::space::LabelSource;
 use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::built_in::BuiltIn;
-use shagreen_formats::library::{Library, LibraryError, TextureEntry, read_library};
+use shagreen_formats::library::{Library, LibraryError, TextureEntry, USUAL_AXES, read_library};
 
 use crate::file::{in_file, read_file};
 use crate::report::Reporter;
@@ -55,7 +55,8 @@ fn load_file(path: &Path, reporter: &dyn Reporter) -> anyhow::Result<Result<Libr
     }))
 }
 
-/// Merges all library files of a folder; other files are ignored.
+/// Merges all library files of a folder; other files are ignored. The merged library has the axes of the libraries if they all
+/// have the same, or else the usual two.
 fn load_folder(folder: &Path, reporter: &dyn Reporter) -> anyhow::Result<Library> {
     let list = || -> std::io::Result<Vec<PathBuf>> {
         std::fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect()
@@ -66,7 +67,9 @@ fn load_folder(folder: &Path, reporter: &dyn Reporter) -> anyhow::Result<Library
     paths.sort();
     let mut merged = Library { name: folder.display().to_string(), ..Library::default() };
     let mut homes: HashMap<String, PathBuf> = HashMap::new();
-    let mut n_libraries = 0;
+    // Names of the axes of the first library, and its path.
+    let mut first: Option<(Option<Vec<String>>, PathBuf)> = None;
+    let mut has_same_axes = true;
     for path in paths {
         let library = match load_file(&path, reporter)? {
             Ok(library) => library,
@@ -74,7 +77,18 @@ fn load_folder(folder: &Path, reporter: &dyn Reporter) -> anyhow::Result<Library
             Err(LibraryError::Format { .. }) => continue,
             Err(error) => return Err(error).with_context(|| in_file(&path)),
         };
-        n_libraries += 1;
+        let (axes, other) = first.get_or_insert_with(|| (library.axes.clone(), path.clone()));
+        if *axes != library.axes {
+            has_same_axes = false;
+            // Positions on two axes were always merged, whatever the axes are.
+            if [&*axes, &library.axes].into_iter().flatten().any(|axes| axes.len() != USUAL_AXES.len()) {
+                bail!(
+                    "two libraries have positions on different axes; move one of them to another folder: {} and {}",
+                    other.display(),
+                    path.display()
+                );
+            }
+        }
         for texture in &library.textures {
             if let Some(other) = homes.insert(texture.id.clone(), path.clone()) {
                 bail!(
@@ -88,8 +102,46 @@ fn load_folder(folder: &Path, reporter: &dyn Reporter) -> anyhow::Result<Library
             merged.textures.push(TextureEntry { license, ..texture.clone() });
         }
     }
-    if n_libraries == 0 {
+    let Some((axes, _)) = first else {
         bail!("the folder contains no texture library (.json); choose another folder: {}", folder.display());
-    }
+    };
+    merged.axes = axes.filter(|_| has_same_axes);
     Ok(merged)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::load;
+    use crate::axes::placed_on;
+    use crate::report::Warnings;
+    use shagreen_formats::library::{Library, write_library};
+    use shagreen_formats::starter::starter_library;
+
+    /// Two libraries of a folder: the first textures of the starter library, and the others, on these axes.
+    fn loaded(axes: [Option<&[&str]>; 2]) -> anyhow::Result<Library> {
+        let folder = tempfile::tempdir().unwrap();
+        let starter = starter_library().unwrap();
+        for (index, axes) in axes.into_iter().enumerate() {
+            let mut library = starter.clone();
+            library.textures.retain(|texture| (starter.index_of(&texture.id) < Some(5)) == (index == 0));
+            if let Some(axes) = axes {
+                let axes: Vec<String> = axes.iter().map(|axis| (*axis).to_owned()).collect();
+                library = placed_on(&library, &axes).unwrap();
+            }
+            std::fs::write(folder.path().join(format!("{index}.json")), write_library(&library)).unwrap();
+        }
+        load(Some(folder.path()), &Warnings::default())
+    }
+
+    #[test]
+    fn libraries_of_a_folder_are_merged_on_common_axes() {
+        let three = ["rough-smooth", "hard-soft", "centroid"];
+        let swapped = ["hard-soft", "rough-smooth"];
+        let library = loaded([Some(&three), Some(&three)]).unwrap();
+        assert_eq!((library.axis_names(), library.textures.len()), (three.to_vec(), 25));
+        assert_eq!(loaded([Some(&swapped), Some(&swapped)]).unwrap().axis_names(), swapped);
+        assert_eq!(loaded([Some(&swapped), None]).unwrap().axes, None);
+        let error = loaded([None, Some(&three)]).unwrap_err().to_string();
+        assert!(error.contains("different axes") && error.contains("1.json"), "{error}");
+    }
 }

@@ -183,7 +183,7 @@ mod tests {
             let packed = texture.picture.as_ref().unwrap();
             let seen = looker.look(&decode(packed).unwrap().into_surface(packed.millimeters)).unwrap();
             let at = texture.at().unwrap();
-            let pairs = seen.attributes.iter().zip([at.rough_smooth, at.hard_soft]);
+            let pairs = seen.attributes.iter().zip([at.x(), at.y()]);
             for (off, (seen, at)) in off.iter_mut().zip(pairs) {
                 *off += (seen.mean - at).abs() / library.textures.len() as f64;
             }

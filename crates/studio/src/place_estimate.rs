@@ -1,8 +1,9 @@
 //! Position of a new texture, predicted from the textures of a library that have one.
 
 use shagreen_core::maths::gaussian_process::Estimate;
-use shagreen_core::space::attribute_predictor::{predict, quantities, without_features};
-use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::space::attribute_predictor::{Known, Quantities, predict, quantities, without_features};
+use shagreen_core::space::signal_axes::SignalAxis;
+use shagreen_core::space::{LabelSource, SpacePoint, local_mean};
 use shagreen_formats::attribute_table::attribute_table;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::text_limits::{MAX_NOTES, begin_and_end};
@@ -11,34 +12,56 @@ use shagreen_formats::text_limits::{MAX_NOTES, begin_and_end};
 const LEAST_KNOWN: usize = 5;
 /// Largest standard deviation that a library stores.
 const MOST_DEVIATION: f64 = 100.0;
+/// Number of axes on which a texture needs a prediction to get a position; it may lie at the local mean on further ones.
+const N_NEEDED: usize = 2;
+/// Coordinate on an axis where nothing is known.
+const MIDDLE: f64 = 50.0;
 
-/// Prediction on both axes.
+/// Prediction on all axes of a library.
 struct Predicted {
-    axes: [OnAxis; 2],
+    /// One for each axis, in their order.
+    axes: Vec<OnAxis>,
     /// Training labels, in words.
     labels: String,
 }
 
-/// Prediction on one axis.
-#[derive(Clone, Copy)]
+/// Coordinate on one axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
 struct OnAxis {
-    /// The prediction, or the mean and standard deviation of the labels if the texture does not determine it.
+    /// The coordinate with its standard deviation; zero if there is none.
     estimate: Estimate,
-    /// Whether the prediction is more certain than the labels of any texture.
-    is_told: bool,
+    basis: Basis,
 }
 
-/// Places a texture at its predicted position, with its standard deviation, and states both and the training labels in
-/// its description. On an axis that its features do not determine, it lies at the mean of the labels. Without any
-/// prediction the texture stays unchanged.
+/// What a coordinate follows from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Basis {
+    /// Predicted from the features of the texture.
+    Features,
+    /// Mean and standard deviation of the labels: the prediction is not more certain.
+    Labels,
+    /// Computed from the vibration of the texture, because the axis is such a feature.
+    Vibration,
+    /// Local mean of the other textures.
+    Neighbors,
+}
+
+/// Places a texture at its predicted position, with its standard deviation on the first two axes, and states both and the training
+/// labels in its description. On an axis that its features do not determine, it lies at the mean of the labels. On an axis
+/// that is computed from the vibration, it lies where its own vibration is. On an axis from the third on that cannot be predicted,
+/// it lies at the local mean of the textures. Without any prediction the texture stays unchanged.
 pub fn place_by_estimate(entry: &mut TextureEntry, library: &Library) {
     let Some(Predicted { axes, labels }) = predicted(entry, library) else { return };
-    let [rough_smooth, hard_soft] = axes.map(|axis| axis.estimate.mean.clamp(0.0, 100.0));
-    let deviation = axes.map(|axis| axis.estimate.deviation.clamp(0.0, MOST_DEVIATION));
-    let at = SpacePoint { rough_smooth, hard_soft };
+    let coordinates: Vec<f64> = axes.iter().map(|axis| axis.estimate.mean.clamp(0.0, 100.0)).collect();
+    // A library has at least one axis, and no more than a point.
+    let Ok(at) = SpacePoint::of(&coordinates) else { return };
+    let deviation = [0, 1].map(|axis| {
+        axes.get(axis).map_or(0.0, |on: &OnAxis| on.estimate.deviation.clamp(0.0, MOST_DEVIATION))
+    });
     entry.place = Some(Place { deviation: Some(deviation), ..Place::new(at, LabelSource::Estimated) });
     let names = library.axis_names();
-    let described = [0, 1].map(|axis| in_words(names[axis], axes[axis]));
+    let described: Vec<String> =
+        names.into_iter().zip(&axes).map(|(name, axis)| in_words(name, *axis)).collect();
     let said = format!(
         "Estimated position (mean ± standard deviation): {}; predicted from {labels}; nobody rated it.",
         described.join(", ")
@@ -51,44 +74,113 @@ pub fn can_estimate(library: &Library) -> bool {
     attribute_table(library).is_ok_and(|table| table.textures.len() >= LEAST_KNOWN)
 }
 
-fn in_words(name: &str, OnAxis { estimate: Estimate { mean, deviation }, is_told }: OnAxis) -> String {
-    if is_told {
-        format!("{name} {mean:.0} ± {deviation:.0}")
-    } else {
-        format!(
+fn in_words(name: &str, OnAxis { estimate: Estimate { mean, deviation }, basis }: OnAxis) -> String {
+    match basis {
+        Basis::Features => format!("{name} {mean:.0} ± {deviation:.0}"),
+        Basis::Labels => format!(
             "{name} cannot be told from this recording (placed at the mean of the labels, {mean:.0} ± {deviation:.0})"
-        )
+        ),
+        Basis::Vibration => format!("{name} {mean:.0} (computed from its vibration)"),
+        Basis::Neighbors => format!("{name} {mean:.0} (local mean of the other textures)"),
     }
 }
 
-/// Returns the predictions on both axes; `None` if the library has too few textures with positions.
+/// Returns the coordinates on all axes; `None` if the library has too few textures with positions, or if nothing predicts one of
+/// the first two coordinates.
 fn predicted(entry: &TextureEntry, library: &Library) -> Option<Predicted> {
     let table = attribute_table(library).ok()?; // A library without positions has no axes.
     if table.textures.len() < LEAST_KNOWN {
         return None;
     }
-    let indices = library.axis_names().map(|axis| table.names.iter().position(|name| name == axis));
-    let [Some(across), Some(up)] = indices else { return None };
     let known = table.known(library);
+    let features = quantities(&entry.model);
     // A texture without a feature in common with the others cannot be compared.
-    let estimates = predict(&known, &quantities(&entry.model)).ok()?;
+    let estimates = predict(&known, &features).ok()?;
     let labels = without_features(&known);
-    let axes = [across, up].map(|axis| told(estimates[axis], labels[axis]));
+    let on_axis = |(axis, name): (usize, &str)| {
+        let in_table = table.names.iter().position(|known| known == name);
+        let predicted = in_table.map(|column| told(estimates[column], labels[column]));
+        let further = || if axis < N_NEEDED { None } else { from_positions(&features, library, axis) };
+        predicted.or_else(|| computed(entry, name)).or_else(further)
+    };
+    let axes: Vec<Option<OnAxis>> = library.axis_names().into_iter().enumerate().map(on_axis).collect();
+    if axes.iter().take(N_NEEDED).any(Option::is_none) {
+        return None;
+    }
+    let axes = (0..axes.len()).map(|axis| axes[axis].unwrap_or_else(|| near(&axes, library, axis))).collect();
     Some(Predicted { axes, labels: table.of_library(&library.name) })
 }
 
 /// The prediction, or the estimate from the labels alone if it is as uncertain.
 fn told(estimate: Estimate, labels: Estimate) -> OnAxis {
-    let is_told = estimate.deviation < labels.deviation;
-    OnAxis { estimate: if is_told { estimate } else { labels }, is_told }
+    if estimate.deviation < labels.deviation {
+        OnAxis { estimate, basis: Basis::Features }
+    } else {
+        OnAxis { estimate: labels, basis: Basis::Labels }
+    }
+}
+
+/// The coordinate of a texture on an axis that is computed from the vibration.
+fn computed(entry: &TextureEntry, name: &str) -> Option<OnAxis> {
+    let mean = SignalAxis::from_name(name)?.of(&entry.model)?;
+    Some(OnAxis { estimate: Estimate { mean, deviation: 0.0 }, basis: Basis::Vibration })
+}
+
+/// Prediction of the coordinate on an axis from the positions of the library, of which the table of attributes does not have it.
+fn from_positions(features: &Quantities, library: &Library, axis: usize) -> Option<OnAxis> {
+    let known = |texture: &TextureEntry| {
+        let place = texture.place.filter(|place| place.source != LabelSource::Estimated)?;
+        Some(Known { quantities: quantities(&texture.model), attributes: vec![place.at.get(axis)?] })
+    };
+    let known: Vec<Known> = library.textures.iter().filter_map(known).collect();
+    if known.len() < LEAST_KNOWN {
+        return None;
+    }
+    let estimate = predict(&known, features).ok()?.into_iter().next()?;
+    Some(told(estimate, without_features(&known).into_iter().next()?))
+}
+
+/// Local mean of the textures on an axis, at the coordinates on the others that are known.
+fn near(axes: &[Option<OnAxis>], library: &Library, axis: usize) -> OnAxis {
+    let (told, coordinates): (Vec<usize>, Vec<f64>) = axes
+        .iter()
+        .enumerate()
+        .filter_map(|(axis, on)| Some((axis, (*on)?.estimate.mean.clamp(0.0, 100.0))))
+        .unzip();
+    let on_told = |at: SpacePoint| {
+        let coordinates: Option<Vec<f64>> = told.iter().map(|axis| at.get(*axis)).collect();
+        SpacePoint::of(&coordinates?).ok()
+    };
+    let positions: Vec<Option<SpacePoint>> =
+        library.textures.iter().map(|texture| on_told(texture.at()?)).collect();
+    let values: Vec<Option<f64>> = library.textures.iter().map(|texture| texture.at()?.get(axis)).collect();
+    let at = SpacePoint::of(&coordinates).ok();
+    let mean = at.and_then(|at| local_mean(&positions, &values, at)).unwrap_or(MIDDLE);
+    OnAxis { estimate: Estimate { mean, deviation: 0.0 }, basis: Basis::Neighbors }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{MAX_NOTES, can_estimate, in_words, place_by_estimate, told};
+    use super::{Basis, MAX_NOTES, OnAxis, can_estimate, in_words, near, place_by_estimate, told};
+    use crate::axes::placed_on;
     use shagreen_core::maths::gaussian_process::Estimate;
-    use shagreen_core::space::LabelSource;
-    use shagreen_formats::starter::starter_library;
+    use shagreen_core::space::signal_axes::SignalAxis;
+    use shagreen_core::space::{LabelSource, SpacePoint};
+    use shagreen_formats::library::{Attribute, Attributes, Library, TextureEntry};
+    use shagreen_formats::starter::{simulated_library, starter_library};
+
+    fn named(names: &[&str]) -> Vec<String> {
+        names.iter().map(|name| (*name).to_owned()).collect()
+    }
+
+    /// The first texture of a library, placed among the others.
+    fn first_placed_again(library: &Library) -> TextureEntry {
+        let mut others = library.clone();
+        let mut entry = others.textures.remove(0);
+        (entry.place, entry.attributes) = (None, None);
+        place_by_estimate(&mut entry, &others);
+        entry
+    }
 
     #[test]
     fn a_texture_lands_near_where_it_lay() {
@@ -107,7 +199,7 @@ mod tests {
             let [across, up] = place.deviation.unwrap();
             // A library stores deviations from 0 to 100.
             assert!((0.1..=100.0).contains(&across) && (0.1..=100.0).contains(&up), "{across} {up}");
-            mistakes.push((place.at.rough_smooth - before.rough_smooth).abs());
+            mistakes.push((place.at.x() - before.x()).abs());
         }
         // A description at its limit stays within it, with the statement.
         let mut others = library.clone();
@@ -128,10 +220,58 @@ mod tests {
     }
 
     #[test]
+    fn every_axis_has_a_coordinate() {
+        let library = simulated_library().unwrap();
+        let plane = first_placed_again(&library);
+        let axes = named(&["rough-smooth", "hard-soft", "flat-bumpy", "centroid"]);
+        let entry = first_placed_again(&placed_on(&library, &axes).unwrap());
+        let place = entry.place.unwrap();
+        // The first two axes are predicted as without further ones.
+        assert_eq!((place.at.on(2), place.deviation), (plane.at().unwrap(), plane.place.unwrap().deviation));
+        assert_eq!(place.at.get(3), SignalAxis::Centroid.of(&entry.model));
+        assert!(place.at.get(2).is_some_and(|bumpy| (0.0..=100.0).contains(&bumpy)), "{}", place.at);
+        let words = ["hard-soft", "flat-bumpy", "centroid", "(computed from its vibration)"];
+        assert!(words.iter().all(|words| entry.description.contains(words)), "{}", entry.description);
+        // One axis is enough, also one that is computed.
+        let entry = first_placed_again(&placed_on(&library, &named(&["hard-soft"])).unwrap());
+        assert_eq!(entry.at().unwrap(), SpacePoint::of(&[plane.at().unwrap().y()]).unwrap());
+        let entry = first_placed_again(&placed_on(&library, &named(&["centroid"])).unwrap());
+        assert_eq!(entry.at().unwrap().get(0), SignalAxis::Centroid.of(&entry.model));
+    }
+
+    #[test]
+    fn an_axis_that_the_attributes_lack_follows_from_positions_or_neighbors() {
+        let mut library = starter_library().unwrap();
+        library.axes = Some(named(&["rough-smooth", "hard-soft", "warm-cold"]));
+        for (index, texture) in library.textures.iter_mut().enumerate() {
+            let place = texture.place.as_mut().unwrap();
+            place.at = place.at.on(3).with(2, 0.5 * place.at.x());
+            let value = |name: &str, value: f64| Attribute { name: name.to_owned(), value };
+            let values = vec![value("rough-smooth", place.at.x()), value("hard-soft", place.at.y())];
+            texture.attributes = Some(Attributes { source: LabelSource::HumanRatings, values });
+            // Estimated positions train no prediction.
+            if index % 8 != 0 {
+                place.source = LabelSource::Estimated;
+            }
+        }
+        let entry = first_placed_again(&library);
+        assert!(entry.description.contains("local mean"), "{}", entry.description);
+        let warm = entry.at().unwrap().get(2).unwrap();
+        assert!((warm - 0.5 * entry.at().unwrap().x()).abs() < 5.0, "{}", entry.at().unwrap());
+        for texture in &mut library.textures {
+            texture.place.as_mut().unwrap().source = LabelSource::HumanRatings;
+        }
+        let entry = first_placed_again(&library);
+        assert!(!entry.description.contains("local mean"), "{}", entry.description);
+        let unknown = near(&[None, None], &Library::default(), 1);
+        assert_eq!((unknown.estimate.mean, unknown.basis), (50.0, Basis::Neighbors));
+    }
+
+    #[test]
     fn a_prediction_as_uncertain_as_the_labels_is_none() {
         let labels = Estimate { mean: 48.0, deviation: 31.0 };
         let vague = told(Estimate { mean: 100.0, deviation: 72.1 }, labels);
-        assert_eq!((vague.is_told, vague.estimate), (false, labels));
+        assert_eq!(vague, OnAxis { estimate: labels, basis: Basis::Labels });
         let text = in_words("hard-soft", vague);
         assert!(text.contains("cannot be told from this recording") && text.contains("48 ± 31"), "{text}");
         assert!(!text.contains("100"), "{text}");

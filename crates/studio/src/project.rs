@@ -7,6 +7,7 @@ use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::Library;
 use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
 
+use crate::axes::placed_on;
 use crate::open::{Opened, open};
 use crate::permitted_libraries::Permitted;
 use crate::report::Reporter;
@@ -44,6 +45,18 @@ pub fn load_project(path: &Path, permitted: &Permitted, reporter: &dyn Reporter)
 pub fn textures_of(project: &Project) -> anyhow::Result<Library> {
     let library = project.library.read().context("the built-in library is damaged; reinstall Shagreen")?;
     Ok(project.textures_on(library))
+}
+
+/// Returns the textures of a project ([`textures_of`]), placed on the axes of the project if it has its own.
+///
+/// # Errors
+/// The built-in library is damaged, or the textures cannot have positions on these axes ([`crate::axes::AxesError`]).
+pub fn textures_on_axes(project: &Project) -> anyhow::Result<Library> {
+    let library = textures_of(project)?;
+    match &project.axes {
+        Some(axes) => placed_on(&library, axes).context("the project cannot have its axes"),
+        None => Ok(library),
+    }
 }
 
 /// Returns the authored texture with this name, or else with this key.

@@ -104,7 +104,7 @@ impl Sound {
             );
         }
         Ok(Self {
-            mode: blending.mode,
+            mode: authored.mode,
             mixing: authored.mixing(),
             voices,
             shape: *shape,
@@ -202,9 +202,9 @@ impl Sound {
         }
     }
 
-    /// Returns the point as JSON.
-    pub fn at_json(&self) -> Option<[f64; 2]> {
-        self.at.map(|at| [at.rough_smooth, at.hard_soft])
+    /// Returns the coordinates of the point, one for each axis, as JSON.
+    pub fn at_json(&self) -> Option<Vec<f64>> {
+        self.at.map(|at| at.coordinates().to_vec())
     }
 }
 

@@ -152,7 +152,8 @@ impl Passage {
     pub fn on(self, place: Place, force_n: f32) -> Self {
         let here_m = |place_m: f64, before_m: f64| if place_m.is_finite() { place_m } else { before_m };
         let (x_m, y_m) = (here_m(place.x_m, self.x_m.1), here_m(place.y_m, self.y_m.1));
-        let is_far = libm::hypot(x_m - self.x_m.1, y_m - self.y_m.1) > JUMP_M;
+        let (right_m, up_m) = (x_m - self.x_m.1, y_m - self.y_m.1);
+        let is_far = right_m * right_m + up_m * up_m > JUMP_M * JUMP_M;
         let is_elsewhere = self.forces_n.1 <= 0.0 || place.n_jumps != self.n_jumps || is_far;
         let (from_x_m, from_y_m) = if is_elsewhere { (x_m, y_m) } else { (self.x_m.1, self.y_m.1) };
         Self {

@@ -198,7 +198,7 @@ impl Renderer {
         self.contact = contacts.1;
         self.passage = self.passage.on(place, self.contact.force_n);
         let direction = self.direction.follow(&self.passage, self.tick_secs);
-        let (mut starts, mut lent) = ([0.0; MAX_VOICES], [None; MAX_VOICES]);
+        let (mut starts, mut lent) = ([0.0; MAX_VOICES], core::array::from_fn::<_, MAX_VOICES, _>(|_| None));
         for ((slot, start), texture) in self.slots.iter_mut().zip(&mut starts).zip(&mut lent) {
             *start = slot.weight;
             let Some(id) = slot.id else { continue };
@@ -209,7 +209,7 @@ impl Renderer {
         self.makeup = self.next_makeup();
         let slots = self.slots.iter().zip(&starts).zip(&lent);
         let frictions = slots.filter_map(|((slot, start), texture)| {
-            let friction = texture.and_then(|texture| texture.friction())?;
+            let friction = texture.as_ref()?.friction()?;
             Some((friction, (*start, slot.weight)))
         });
         self.friction.add_tick(frictions, contacts, out);

@@ -69,12 +69,15 @@ impl Friction {
             sum.stribeck_speed_mps += weight * friction.stribeck_speed_mps;
             sum_of_weights += weight;
         }
-        let mean = Self {
-            kinetic: sum.kinetic / sum_of_weights,
-            static_ratio: sum.static_ratio / sum_of_weights,
-            stribeck_speed_mps: sum.stribeck_speed_mps / sum_of_weights,
-        };
-        (sum_of_weights > 0.0).then_some((mean, sum_of_weights))
+        // A tick without friction divides nothing.
+        (sum_of_weights > 0.0).then(|| {
+            let mean = Self {
+                kinetic: sum.kinetic / sum_of_weights,
+                static_ratio: sum.static_ratio / sum_of_weights,
+                stribeck_speed_mps: sum.stribeck_speed_mps / sum_of_weights,
+            };
+            (mean, sum_of_weights)
+        })
     }
 
     fn can_stick(self) -> bool {

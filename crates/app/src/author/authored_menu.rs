@@ -50,7 +50,7 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture) -> Opti
     let duplicate = if is_selected {
         Command::DuplicateTexture
     } else {
-        Command::Edit(Edit::Author(copy_of(panel, texture)))
+        Command::Edit(Edit::Author(Box::new(copy_of(panel, texture))))
     };
     asked = menu_entry(ui, words::DUPLICATE, words::DUPLICATE_HELP, duplicate).or(asked);
     let begin = Command::Relief(ReliefCommand::Begin(Some(ReliefOf::Authored(key)), None));

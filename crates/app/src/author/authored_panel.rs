@@ -24,8 +24,8 @@ const CHIP: f32 = 18.0;
 const LIST_HEIGHT: f32 = 12.0 * ROW;
 /// Maximum share of the column height that the list takes.
 const LIST_SHARE: f32 = 0.21;
-/// Center of the space.
-const MIDDLE: SpacePoint = SpacePoint { rough_smooth: 50.0, hard_soft: 50.0 };
+/// Center of the canvas.
+const MIDDLE: SpacePoint = SpacePoint::plane(50.0, 50.0);
 
 /// Draws the list; returns the requested commands.
 pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
@@ -41,7 +41,8 @@ pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.button(words::ADD).on_hover_text(words::ADD_HELP).clicked() {
                 // Its name is selected, so that typing replaces it.
-                commands.extend([Command::Edit(Edit::Author(fresh(panel, MIDDLE))), Command::RenameSelected]);
+                let added = Command::Edit(Edit::Author(Box::new(fresh(panel, MIDDLE))));
+                commands.extend([added, Command::RenameSelected]);
             }
         });
     });
@@ -149,7 +150,11 @@ fn snapshots_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             }
             context_menu(&response, |ui| {
                 if ui.button(words::AS_OWN).on_hover_text(words::AS_OWN_HELP).clicked() {
-                    commands.push(Command::Edit(Edit::Author(of_snapshot(panel, snapshot, index + 1))));
+                    commands.push(Command::Edit(Edit::Author(Box::new(of_snapshot(
+                        panel,
+                        snapshot,
+                        index + 1,
+                    )))));
                 }
                 if ui.button(words::delete_snapshot(index + 1)).clicked() {
                     commands.push(Command::Edit(Edit::RemoveSnapshot(index)));

@@ -1,6 +1,6 @@
 //! Choice of the interpolation mode and its options.
 
-use egui::{Checkbox, ComboBox, Label, RichText, Ui, vec2};
+use egui::{Button, Checkbox, ComboBox, Label, RichText, Ui, vec2};
 use shagreen_core::space::authoring::{Outside, Weights};
 use shagreen_core::texture::blend::Mode;
 
@@ -9,14 +9,14 @@ use crate::look::list::ShowList as _;
 use crate::look::theme::tokens;
 use crate::panel::Panel;
 use crate::state::edit::Edit;
-use crate::strings;
+use crate::strings::{self, axes};
 
 /// Height of the options row, in points: equal for all modes, so that nothing below it moves.
 const ROW_HEIGHT: f32 = 24.0;
 
 /// Draws the mode and its options; returns the requested command.
 pub fn blend_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
-    let chosen = mode_ui(ui, panel.inspected().blend.mode);
+    let chosen = mode_ui(ui, panel);
     let size = vec2(ui.available_width(), ROW_HEIGHT);
     let row = ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
         ui.set_min_height(ROW_HEIGHT);
@@ -51,7 +51,10 @@ pub fn mode_entry(mode: Mode) -> String {
     format!("{}: {}", name(mode), help(mode)[0])
 }
 
-fn mode_ui(ui: &mut Ui, mode: Mode) -> Option<Edit> {
+/// Draws the choice of the mode. Without triangles, only Field can be chosen, and the others say why.
+fn mode_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Edit> {
+    let mode = panel.session.blend_in_space(&panel.inspected().blend).mode;
+    let has_triangles = !panel.session.is_sliced();
     let mut chosen = None;
     ui.horizontal(|ui| {
         ui.add(Label::new(strings::BLEND).selectable(false));
@@ -60,8 +63,11 @@ fn mode_ui(ui: &mut Ui, mode: Mode) -> Option<Edit> {
             ComboBox::from_id_salt("blend mode").width(width).truncate().selected_text(mode_entry(mode));
         let shown = combo.show_list(ui, |ui| {
             for each in Mode::ALL {
-                let entry = ui.selectable_label(mode == each, mode_entry(each));
-                if entry.on_hover_text(help(each)[1]).clicked() {
+                let can_choose = has_triangles || each == mode;
+                let entry = ui.add_enabled(can_choose, Button::selectable(mode == each, mode_entry(each)));
+                let entry = entry.on_hover_text(help(each)[1]);
+                // The chosen mode of a space without triangles stays for one with them.
+                if entry.on_disabled_hover_text(axes::NEEDS_TRIANGLES).clicked() && has_triangles {
                     chosen = Some(Edit::SetMode(each));
                 }
             }
@@ -73,7 +79,7 @@ fn mode_ui(ui: &mut Ui, mode: Mode) -> Option<Edit> {
 
 /// Draws the options of the selected mode.
 fn options_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Edit> {
-    let blending = &panel.inspected().blend;
+    let blending = panel.session.blend_in_space(&panel.inspected().blend);
     match blending.mode {
         Mode::Field => {
             let mut is_beyond = blending.outside == Outside::Extrapolated;

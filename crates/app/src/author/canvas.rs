@@ -8,6 +8,7 @@ mod path_tool;
 mod points_ui;
 mod site_labels;
 mod sites_ui;
+mod slice;
 mod status_line;
 mod tool_bar;
 mod view;
@@ -29,6 +30,7 @@ pub use self::path_tool::PathTool;
 use self::path_tool::{path_line, path_marker, path_points};
 use self::points_ui::authored_points_ui;
 use self::sites_ui::sites_ui;
+use self::slice::legend_ui;
 use self::status_line::foot_ui;
 use self::tool_bar::tool_bar;
 use self::view::follow_view;
@@ -83,6 +85,8 @@ const WRAPPING_WIDTH: f32 = 900.0;
 const NARROW_WIDTH: f32 = 520.0;
 /// Height of one row of controls, in points.
 const BAR_ROW: f32 = 25.0;
+/// Distance between the source of the positions and the legend of a slice, in points.
+const LEGEND_GAP: f32 = 1.0;
 /// Distances of the controls from the upper edge of the canvas, and of the textures from the controls, in points.
 const BAR_TOP: f32 = 3.0;
 const BELOW_BAR: f32 = 4.0;
@@ -126,6 +130,10 @@ pub fn canvas_ui(
     let corner = pos2(axes.rect.right(), outer.top() + 5.0);
     let source = (!state.is_narrow).then(|| source_ui(ui, corner, panel, t));
     words.extend(source);
+    // In a narrow canvas, the strip below the items has the legend.
+    let below = source.map(|source| pos2(corner.x, source.bottom() + LEGEND_GAP));
+    let legend = below.and_then(|below| legend_ui(ui, below, panel, t));
+    words.extend(legend);
     // Names of textures keep clear of the controls, too.
     words.extend(state.bar);
     let seen = ui.clip_rect();
@@ -134,8 +142,8 @@ pub fn canvas_ui(
     triangles(ui, axes, panel, t);
     path_line(ui, axes, panel, t);
     site_ellipses_ui(ui, axes, panel, t);
-    if let Some(guess) = guess {
-        ellipse_ui(ui, axes, guess.axes, t.accent);
+    if let Some(on_canvas) = guess.and_then(PositionEstimate::on_canvas) {
+        ellipse_ui(ui, axes, on_canvas, t.accent);
     }
     // A click beside an open menu only closes it.
     let is_click = background.clicked() && !had_open_menu(ui.ctx());
@@ -145,7 +153,7 @@ pub fn canvas_ui(
     } else if let Some(pos) =
         dragged_by_primary(ui, &background).or(clicked_at).filter(|_| !state.is_pressed_beside)
     {
-        let to = axes.space_from_ui(pos);
+        let to = panel.on_slice(axes.space_from_ui(pos));
         if clicked_at.is_some() && to != panel.project.texture().at {
             say_moved(ui.ctx(), &panel.project.texture().name);
         }
@@ -164,7 +172,8 @@ pub fn canvas_ui(
     commands.extend(path_points(ui, axes, panel, tool, t));
     path_marker(ui, axes, panel, t);
     ui.set_clip_rect(seen);
-    let width = source.map_or(outer.right(), |source| source.left()) - outer.left() - 44.0;
+    let beside = [source, legend].into_iter().flatten().map(|words| words.left());
+    let width = beside.fold(outer.right(), f32::min) - outer.left() - 44.0;
     let bar = tool_bar(ui, axes, outer, width, panel, tool, map, t);
     commands.extend(bar.commands);
     state.view = bar.view.unwrap_or(state.view);
@@ -172,7 +181,7 @@ pub fn canvas_ui(
     commands.extend(drop_ui(ui, axes, outer, panel, t));
     commands.extend(canvas_menu(&background, axes, panel, map));
     let asks_for_path = state.tool.is_on && panel.project.texture().path.is_none();
-    commands.extend(foot_ui(ui, outer, &words, panel, asks_for_path, t));
+    commands.extend(foot_ui(ui, outer, &words, panel, [asks_for_path, state.is_narrow], t));
     commands
 }
 
@@ -202,14 +211,14 @@ fn move_to(point: SpacePoint) -> Command {
     Command::Edit(Edit::MovePoint(point))
 }
 
-/// Draws the grid lines and the labels at the ends of the axes; returns the rectangles of these labels.
-fn grid(ui: &Ui, axes: Axes, outer: Rect, [across, up]: &[[String; 2]; 2], t: &Tokens) -> Vec<Rect> {
+/// Draws the grid lines and the labels at the ends of the axes of the canvas, those of the x axis first; returns the rectangles
+/// of these labels.
+fn grid(ui: &Ui, axes: Axes, outer: Rect, poles: &[[String; 2]], t: &Tokens) -> Vec<Rect> {
     let painter = ui.painter();
     let faint = Stroke::new(1.0, t.line.gamma_multiply(0.5));
     let r = axes.rect;
     for i in 0..=4 {
-        let line = axes
-            .ui_from_space(SpacePoint { rough_smooth: 25.0 * f64::from(i), hard_soft: 25.0 * f64::from(i) });
+        let line = axes.ui_from_space(SpacePoint::plane(25.0 * f64::from(i), 25.0 * f64::from(i)));
         if r.x_range().expand(1.0).contains(line.x) {
             painter.vline(line.x, r.y_range(), faint);
         }
@@ -220,11 +229,14 @@ fn grid(ui: &Ui, axes: Axes, outer: Rect, [across, up]: &[[String; 2]; 2], t: &T
     let font = FontId::proportional(13.0);
     let label =
         |pos: Pos2, align: Align2, text: &str| painter.text(pos, align, text, font.clone(), t.text_weak);
-    let mut words = vec![
-        label(pos2(r.left(), outer.bottom() - 6.0), Align2::LEFT_BOTTOM, &across[0]),
-        label(pos2(r.right(), outer.bottom() - 6.0), Align2::RIGHT_BOTTOM, &across[1]),
-    ];
-    for (text, y) in [(&up[1], r.top()), (&up[0], r.bottom())] {
+    let bottom = outer.bottom() - 6.0;
+    let across = poles.first().into_iter().flat_map(|[low, high]| {
+        [(r.left(), Align2::LEFT_BOTTOM, low), (r.right(), Align2::RIGHT_BOTTOM, high)]
+    });
+    let mut words: Vec<Rect> = across.map(|(x, align, text)| label(pos2(x, bottom), align, text)).collect();
+    // A space with one axis has no vertical one.
+    let up = poles.get(1).into_iter().flat_map(|[low, high]| [(high, r.top()), (low, r.bottom())]);
+    for (text, y) in up {
         let galley = painter.layout_no_wrap(text.clone(), font.clone(), t.text_weak);
         let size = galley.size();
         // Beside the corner, where the picture of a texture may lie.

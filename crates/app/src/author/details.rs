@@ -84,7 +84,7 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     ui.separator();
     ui.horizontal(|ui| {
         if ui.add(button(words::DUPLICATE)).on_hover_text(words::DUPLICATE_HELP).clicked() {
-            commands.push(Command::Edit(Edit::Author(copy_of(panel, texture))));
+            commands.push(Command::Edit(Edit::Author(Box::new(copy_of(panel, texture)))));
             ui.close();
         }
         // Apart from the others, so that no click meant for them deletes.

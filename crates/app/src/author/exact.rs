@@ -26,8 +26,8 @@ pub(crate) fn clicked(response: &Response, panel: &Panel<'_>, texture: usize) ->
 pub(crate) fn is_own_exactly(panel: &Panel<'_>, texture: usize) -> bool {
     let authored = panel.project.texture();
     panel.session.is_own(texture)
-        && authored.blend.is_locked(&panel.session.textures()[texture].id)
-        && panel.session.position(texture) == Some(authored.at)
+        && panel.is_locked(texture)
+        && panel.session.position(texture) == Some(panel.session.fitted(authored.at))
         && authored.shape.is_neutral()
 }
 
@@ -49,12 +49,12 @@ pub(crate) fn authored_exactly(panel: &Panel<'_>, texture: usize) -> Option<Edit
         locked: BTreeSet::from([entry.id.clone()]),
         ..panel.project.texture().blend.clone()
     };
-    Some(Edit::Author(AuthoredTexture {
+    Some(Edit::Author(Box::new(AuthoredTexture {
         color: next_color(panel),
         notes: entry.description.clone(),
         tags: entry.tags.clone(),
         at,
         blend,
         ..AuthoredTexture::new(0, &own_name(panel, &entry.name))
-    }))
+    })))
 }

@@ -35,7 +35,8 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>, filter: &mut Filter) {
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(2.0, 2.0);
         ui.spacing_mut().button_padding.x = 6.0;
-        for region in Region::ALL {
+        let n_axes = panel.session.n_axes();
+        for region in Region::ALL.into_iter().filter(|region| region.is_on(n_axes)) {
             let name = words::region(region, panel.session.poles());
             ui.selectable_value(&mut filter.region, region, name);
         }

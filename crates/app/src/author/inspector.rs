@@ -3,10 +3,9 @@
 //! It shows the selected texture. While a comparison plays another one, it shows that one, which cannot be edited: edits
 //! apply to the selected texture.
 
-use egui::{Label, Rect, RichText, Role, Sense, Slider, TextEdit, Ui, WidgetInfo, vec2};
-use shagreen_core::space::SpacePoint;
+use egui::{Label, Rect, RichText, Role, Sense, TextEdit, Ui, WidgetInfo, vec2};
 
-use crate::author::axes_choice::axis_choice_ui;
+use crate::author::axis_sliders::axis_sliders;
 use crate::author::blend_choice::blend_ui;
 use crate::author::details::details_ui;
 use crate::author::locks::lock_button;
@@ -14,6 +13,7 @@ use crate::author::shape_ui::shape_ui;
 use crate::author::solo::solo_button;
 use crate::author::texture_picture::picture_ui;
 use crate::command::Command;
+use crate::look::scroll_to_focus::scroll_to_focus;
 use crate::look::theme::{GAP, GROUP_GAP, RADIUS, tokens};
 use crate::panel::Panel;
 use crate::session::N_SHOWN_PARENTS;
@@ -54,7 +54,9 @@ pub fn inspector_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     let area = egui::ScrollArea::vertical().auto_shrink(false);
     let shown = area.show(&mut wide, |ui| {
         ui.set_max_width(outside.width() - ui.spacing().scroll.bar_width - BAR_GAP);
-        content_ui(ui, panel, height)
+        let commands = content_ui(ui, panel, height);
+        scroll_to_focus(ui);
+        commands
     });
     shown.inner
 }
@@ -126,57 +128,11 @@ fn settings_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         }
     });
     ui.add_space(GAP);
-    commands.extend(sliders(ui, panel));
+    commands.extend(axis_sliders(ui, panel));
     ui.add_space(GROUP_GAP);
     commands.extend(blend_ui(ui, panel));
     commands.extend(shape_ui(ui, panel));
     commands
-}
-
-/// Sliders of the two axes. They show the authored point and move it.
-fn sliders(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
-    let mut commands = Vec::new();
-    let SpacePoint { mut rough_smooth, mut hard_soft } = panel.inspected().at;
-    let [across, up] = panel.session.poles();
-    let mut is_changed = false;
-    for (axis, value, ends) in [(0, &mut rough_smooth, across), (1, &mut hard_soft, up)] {
-        let (changed, choice) = axis_slider(ui, panel, axis, value, ends);
-        is_changed |= changed;
-        commands.extend(choice);
-    }
-    if is_changed {
-        commands.push(Command::Edit(Edit::MovePoint(SpacePoint { rough_smooth, hard_soft })));
-    }
-    commands
-}
-
-/// Draws the slider of one axis below its end labels. Returns whether it was moved, and the command that chooses
-/// another attribute.
-fn axis_slider(
-    ui: &mut Ui,
-    panel: &Panel<'_>,
-    axis: usize,
-    value: &mut f64,
-    ends: &[String; 2],
-) -> (bool, Option<Command>) {
-    let t = tokens(ui.ctx());
-    let choice = ui.horizontal(|ui| {
-        ui.add(Label::new(RichText::new(&ends[0]).color(t.text_weak)).selectable(false));
-        let choice = axis_choice_ui(ui, panel, axis);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.add(Label::new(RichText::new(&ends[1]).color(t.text_weak)).selectable(false));
-        });
-        choice
-    });
-    // The labels belong to the slider.
-    ui.add_space(-ui.spacing().item_spacing.y);
-    let width = ui.available_width();
-    ui.spacing_mut().slider_width = width - 66.0;
-    // Displayed with one decimal but not rounded to it: a slider that rounds would edit the project by itself.
-    let one_decimal = |value: f64, _| format!("{value:.1}");
-    let slider = Slider::new(value, 0.0..=100.0).custom_formatter(one_decimal).smart_aim(false);
-    let slider = ui.add(slider).accessible_name(strings::axis(ends)).on_hover_text(strings::axis_help(ends));
-    (slider.changed(), choice.inner)
 }
 
 /// Draws the contributing textures with pictures and weights, and a summary of those without a card, in `room` points of
@@ -285,7 +241,7 @@ fn card(
     // The pin button does not move with the width of the number.
     let button = Rect::from_center_size(egui::pos2(right - 66.0, number.center().y), vec2(22.0, 22.0));
     let can_edit = panel.can_edit();
-    let can_lock = can_edit && panel.project.texture().blend.can_lock() && panel.solo().is_none();
+    let can_lock = can_edit && panel.can_lock() && panel.solo().is_none();
     let mut command = if can_lock { lock_button(ui, panel, texture, button) } else { None };
     let solo = button.translate(vec2(-24.0, 0.0));
     if can_edit {

@@ -22,15 +22,19 @@ impl Region {
         Self::Quarter([End::High, End::High]),
     ];
 
+    /// Whether the region exists in a space with this number of axes: one axis has two halves, not four quarters. All of its
+    /// points lie in the upper half of the canvas.
+    pub(crate) fn is_on(self, n_axes: usize) -> bool {
+        n_axes > 1 || !matches!(self, Self::Quarter([_, End::Low]))
+    }
+
     /// Whether the region contains a texture at position `at` (`None`: without a position). `point` is the authored
     /// point.
     fn holds(self, at: Option<SpacePoint>, point: SpacePoint) -> bool {
         let is_in = |x: f64, end: End| (x >= MIDDLE) == (end == End::High);
         match self {
             Self::Anywhere => true,
-            Self::Quarter([across, up]) => {
-                at.is_some_and(|at| is_in(at.rough_smooth, across) && is_in(at.hard_soft, up))
-            }
+            Self::Quarter([across, up]) => at.is_some_and(|at| is_in(at.x(), across) && is_in(at.y(), up)),
             Self::NearPoint => at.is_some_and(|at| at.distance(point) <= NEAR),
             Self::NotPlaced => at.is_none(),
         }
@@ -119,7 +123,7 @@ mod tests {
     use shagreen_core::space::SpacePoint;
 
     fn at(rough_smooth: f64, hard_soft: f64) -> SpacePoint {
-        SpacePoint { rough_smooth, hard_soft }
+        SpacePoint::plane(rough_smooth, hard_soft)
     }
 
     fn tags(words: &[&str]) -> Vec<String> {
@@ -174,6 +178,14 @@ mod tests {
         check("", &quarter(End::Low, End::High), &[]);
         check("", &in_region(Region::NearPoint), &["Ash"]);
         check("", &in_region(Region::NotPlaced), &["Denim"]);
+    }
+
+    #[test]
+    fn one_axis_has_two_halves() {
+        let n_regions = |n_axes| Region::ALL.iter().filter(|region| region.is_on(n_axes)).count();
+        assert_eq!((n_regions(1), n_regions(2)), (Region::ALL.len() - 2, Region::ALL.len()));
+        let one = SpacePoint::of(&[70.0]).unwrap();
+        assert!(Region::Quarter([End::High, End::High]).holds(Some(one), one));
     }
 
     #[test]

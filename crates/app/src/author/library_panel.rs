@@ -145,7 +145,8 @@ fn found(panel: &Panel<'_>, state: &LibraryState) -> Vec<usize> {
         is_joined: panel.joined_index(index).is_some(),
     });
     let candidates: Vec<Candidate<'_>> = candidates.collect();
-    listed(&candidates, &state.search, &state.filter, panel.project.texture().at)
+    let point = panel.session.fitted(panel.project.texture().at);
+    listed(&candidates, &state.search, &state.filter, point)
 }
 
 /// Draws the number of listed textures and the source of their positions.

@@ -49,7 +49,7 @@ pub(crate) fn lock_button(ui: &Ui, panel: &Panel<'_>, texture: usize, area: Rect
 
 /// Whether a texture can be pinned: it has a position, and the interpolation mode uses a field.
 pub(crate) fn can_lock(panel: &Panel<'_>, texture: usize) -> bool {
-    panel.project.texture().blend.can_lock() && panel.session.position(texture).is_some()
+    panel.can_lock() && panel.session.position(texture).is_some()
 }
 
 /// Draws the menu entry that pins or unpins a texture.

@@ -7,11 +7,11 @@ use shagreen_formats::project::{AuthoredTexture, N_COLORS};
 use crate::panel::Panel;
 use crate::strings::{self, authored as words};
 
-/// New texture at a position, with the interpolation settings of the selected one.
+/// New texture at a position on the canvas, with the further coordinates and the interpolation settings of the selected one.
 pub(crate) fn fresh(panel: &Panel<'_>, at: SpacePoint) -> AuthoredTexture {
     AuthoredTexture {
         color: next_color(panel),
-        at,
+        at: panel.on_slice(at),
         blend: panel.project.blend_of_new(),
         ..AuthoredTexture::new(0, &own_name(panel, strings::NEW_TEXTURE))
     }

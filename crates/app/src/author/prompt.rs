@@ -3,7 +3,6 @@
 
 pub(crate) mod bar_ui;
 pub(crate) mod card_ui;
-mod course;
 mod job;
 mod position_estimate;
 mod simulation;
@@ -60,7 +59,7 @@ pub(crate) struct Arrived {
     /// Key of the authored texture to replace, and its picture at that time. `None` makes a new texture.
     pub(crate) replaces: Option<(u32, Arc<Picture>)>,
     /// Names of the axes that the estimate refers to.
-    pub(crate) axes: [String; 2],
+    pub(crate) axes: Vec<String>,
 }
 
 impl Prompts {
@@ -96,18 +95,19 @@ impl Prompts {
         self.guesses.iter().find(is_of)
     }
 
-    /// Estimate of an authored texture with the lexicon entry of this material, or again the one from the picture. `None` if
-    /// the texture has no estimate, or the lexicon no entry.
+    /// Estimate of an authored texture with the lexicon entry of this material, completed, or again the one from the picture.
+    /// `None` if the texture has no estimate, or the lexicon no entry.
     pub(crate) fn take_material(
         &mut self,
         texture: &AuthoredTexture,
         material: Option<&str>,
+        completed: impl FnOnce(PositionEstimate) -> PositionEstimate,
     ) -> Option<PositionEstimate> {
         let present = self.guess_of(texture)?;
         if let Some(before) = self.guesses.iter().find(|guess| guess.taken.as_deref() == material) {
             return Some(before.clone());
         }
-        let taken = present.with_material(material?)?;
+        let taken = completed(present.with_material(material?)?);
         self.guesses.push(taken.clone());
         Some(taken)
     }
@@ -158,7 +158,7 @@ impl Prompts {
         &mut self,
         command: PromptCommand,
         texture: &AuthoredTexture,
-        poles: &[[String; 2]; 2],
+        poles: &[[String; 2]],
         ctx: &Context,
     ) -> Option<KeptPrompt> {
         let (prompt, seed, replaces) = match command {
@@ -205,7 +205,7 @@ impl Prompts {
     }
 
     /// Starts with the first waiting photo if no job is running.
-    pub(crate) fn look_at_next(&mut self, poles: &[[String; 2]; 2], ctx: &Context) {
+    pub(crate) fn look_at_next(&mut self, poles: &[[String; 2]], ctx: &Context) {
         if self.job.is_none()
             && let Some(photo) = self.waiting.pop_front()
         {
@@ -217,7 +217,7 @@ impl Prompts {
         &mut self,
         wanted: Wanted,
         replaces: Option<(u32, Arc<Picture>)>,
-        poles: &[[String; 2]; 2],
+        poles: &[[String; 2]],
         ctx: &Context,
     ) {
         let maker = Maker {
@@ -291,6 +291,6 @@ pub(crate) fn has_still(texture: &AuthoredTexture, key: u32, picture: &Arc<Pictu
 }
 
 /// Names of the axes, made from the labels at both ends of each.
-pub(crate) fn axis_names(poles: &[[String; 2]; 2]) -> [String; 2] {
-    poles.clone().map(|ends| ends.join("-"))
+pub(crate) fn axis_names(poles: &[[String; 2]]) -> Vec<String> {
+    poles.iter().map(|ends| ends.join("-")).collect()
 }

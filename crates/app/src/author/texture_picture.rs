@@ -10,7 +10,7 @@ use crate::strings;
 /// Position of a texture, with its standard deviation if it was estimated with one, and its source.
 pub(crate) fn place_in_words(panel: &Panel<'_>, index: usize, at: SpacePoint) -> String {
     let source = panel.session.place_source(index).map_or(strings::NO_SOURCE, LabelSource::label);
-    strings::lies_at(at, panel.session.place_deviation(index), source)
+    strings::lies_at(at, panel.session.poles(), panel.session.place_deviation(index), source)
 }
 
 /// Draws the picture of a texture in `area`, or a plain square while there is none.

@@ -6,7 +6,6 @@ use shagreen_core::people::ratings::{AdjectivePair, Rating};
 use shagreen_core::space::selection::Method;
 use shagreen_core::space::space_build::{FeatureKind, PlacedBy, SpaceOptions};
 
-use crate::author::axes_choice::with_axis;
 use crate::look::list::ShowList as _;
 use crate::look::theme::{GAP, tokens};
 use crate::strings::build as strings;
@@ -161,4 +160,36 @@ fn pairs_of(ratings: &[Rating]) -> Vec<AdjectivePair> {
         }
     }
     pairs
+}
+
+/// Returns both axes after `chosen` from `all` is assigned to the axis with index `axis`.
+/// The other axis keeps its attribute. If that is `chosen` itself, it takes the previous attribute of this axis.
+/// Without previous axes it takes the first free attribute. `None` if there is no other attribute.
+fn with_axis<T: Clone + PartialEq>(
+    before: Option<&[T; 2]>,
+    all: &[T],
+    axis: usize,
+    chosen: &T,
+) -> Option<[T; 2]> {
+    let known = before.into_iter().flat_map(|axes| [&axes[1 - axis], &axes[axis]]);
+    let other = known.chain(all).find(|other| *other != chosen)?.clone();
+    Some(if axis == 0 { [chosen.clone(), other] } else { [other, chosen.clone()] })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_axis;
+
+    #[test]
+    fn choosing_one_axis_never_leaves_two_of_the_same() {
+        let check = |before: Option<[char; 2]>, axis: usize, chosen: char, expected: [char; 2]| {
+            assert_eq!(with_axis(before.as_ref(), &['a', 'b', 'c'], axis, &chosen), Some(expected));
+        };
+        check(None, 0, 'a', ['a', 'b']);
+        check(None, 1, 'c', ['a', 'c']);
+        check(Some(['a', 'b']), 1, 'c', ['a', 'c']);
+        // The two axes swap their attributes.
+        check(Some(['a', 'b']), 0, 'b', ['b', 'a']);
+        assert_eq!(with_axis(None, &['a'], 0, &'a'), None);
+    }
 }

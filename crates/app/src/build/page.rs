@@ -17,6 +17,7 @@ use crate::build::judgments::Judgments;
 use crate::build::options_ui::options_ui;
 use crate::build::validation_ui::validation_ui;
 use crate::command::Command;
+use crate::look::scroll_to_focus::scroll_to_focus;
 use crate::look::theme::{BUILD_INPUTS_WIDTH, GAP, GROUP_GAP, RADIUS, VERDICT_WIDTH, tokens};
 use crate::panel::Panel;
 use crate::session::Session;
@@ -166,6 +167,7 @@ impl BuildPage {
             let is_rated_alone =
                 self.judgments.ratings.read.is_some() && self.judgments.sorting.read.is_none();
             options_ui(ui, &mut self.options, self.judgments.ratings.values(), is_rated_alone);
+            scroll_to_focus(ui);
         });
         asked
     }

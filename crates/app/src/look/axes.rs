@@ -17,7 +17,7 @@ pub struct View {
 
 impl Default for View {
     fn default() -> Self {
-        Self { low: SpacePoint { rough_smooth: 0.0, hard_soft: 0.0 }, side: 100.0 }
+        Self { low: SpacePoint::plane(0.0, 0.0), side: 100.0 }
     }
 }
 
@@ -33,21 +33,14 @@ impl View {
         let side = (self.side / factor).clamp(100.0 / MAX_ZOOM, 100.0);
         let share = side / self.side;
         let low = |at: f64, low: f64| at - share * (at - low);
-        Self {
-            low: SpacePoint {
-                rough_smooth: low(fixed.rough_smooth, self.low.rough_smooth),
-                hard_soft: low(fixed.hard_soft, self.low.hard_soft),
-            },
-            side,
-        }
-        .within()
+        Self { low: SpacePoint::plane(low(fixed.x(), self.low.x()), low(fixed.y(), self.low.y())), side }
+            .within()
     }
 
     /// Returns the view moved along both axes, in axis units (0 to 100).
     #[must_use]
     pub fn moved(self, along: f64, up: f64) -> Self {
-        let low =
-            SpacePoint { rough_smooth: self.low.rough_smooth + along, hard_soft: self.low.hard_soft + up };
+        let low = SpacePoint::plane(self.low.x() + along, self.low.y() + up);
         Self { low, ..self }.within()
     }
 
@@ -58,23 +51,20 @@ impl View {
             let high = points.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
             (low, high)
         };
-        let (across, up) = (range(|p| p.rough_smooth), range(|p| p.hard_soft));
+        let (across, up) = (range(|p| p.x()), range(|p| p.y()));
         if across.0 > across.1 {
             return Self::default();
         }
         let spread = (across.1 - across.0).max(up.1 - up.0);
         let side = (1.2 * spread).clamp(100.0 / MAX_ZOOM, 100.0);
         let low = |(low, high): (f64, f64)| 0.5 * (low + high) - 0.5 * side;
-        Self { low: SpacePoint { rough_smooth: low(across), hard_soft: low(up) }, side }.within()
+        Self { low: SpacePoint::plane(low(across), low(up)), side }.within()
     }
 
     /// Moves the view so that nothing beyond the space is visible.
     fn within(self) -> Self {
         let most = 100.0 - self.side;
-        let low = SpacePoint {
-            rough_smooth: self.low.rough_smooth.clamp(0.0, most),
-            hard_soft: self.low.hard_soft.clamp(0.0, most),
-        };
+        let low = SpacePoint::plane(self.low.x().clamp(0.0, most), self.low.y().clamp(0.0, most));
         Self { low, ..self }
     }
 }
@@ -93,8 +83,8 @@ impl Axes {
     pub fn ui_from_space(self, point: SpacePoint) -> Pos2 {
         let share = |at: f64, low: f64| ((at - low) / self.view.side) as f32;
         pos2(
-            self.rect.left() + self.rect.width() * share(point.rough_smooth, self.view.low.rough_smooth),
-            self.rect.bottom() - self.rect.height() * share(point.hard_soft, self.view.low.hard_soft),
+            self.rect.left() + self.rect.width() * share(point.x(), self.view.low.x()),
+            self.rect.bottom() - self.rect.height() * share(point.y(), self.view.low.y()),
         )
     }
 
@@ -103,10 +93,10 @@ impl Axes {
         let at = |x: f32, from: f32, to: f32, low: f64| {
             (low + self.view.side * f64::from((x - from) / (to - from))).clamp(0.0, 100.0)
         };
-        SpacePoint {
-            rough_smooth: at(pos.x, self.rect.left(), self.rect.right(), self.view.low.rough_smooth),
-            hard_soft: at(pos.y, self.rect.bottom(), self.rect.top(), self.view.low.hard_soft),
-        }
+        SpacePoint::plane(
+            at(pos.x, self.rect.left(), self.rect.right(), self.view.low.x()),
+            at(pos.y, self.rect.bottom(), self.rect.top(), self.view.low.y()),
+        )
     }
 
     /// Converts a displacement on the screen to axis units (0 to 100), the second one upwards.
@@ -117,8 +107,8 @@ impl Axes {
 
     /// Rectangle that the whole space would take on the screen.
     pub fn whole(self) -> Rect {
-        let low = self.ui_from_space(SpacePoint { rough_smooth: 0.0, hard_soft: 0.0 });
-        let high = self.ui_from_space(SpacePoint { rough_smooth: 100.0, hard_soft: 100.0 });
+        let low = self.ui_from_space(SpacePoint::plane(0.0, 0.0));
+        let high = self.ui_from_space(SpacePoint::plane(100.0, 100.0));
         Rect::from_two_pos(low, high)
     }
 }
@@ -130,7 +120,7 @@ mod tests {
     use shagreen_core::space::SpacePoint;
 
     fn at(rough_smooth: f64, hard_soft: f64) -> SpacePoint {
-        SpacePoint { rough_smooth, hard_soft }
+        SpacePoint::plane(rough_smooth, hard_soft)
     }
 
     fn axes(view: View) -> Axes {

@@ -152,8 +152,10 @@ impl AuthoredSources {
     }
 
     fn authored(&self, texture: &AuthoredTexture, space: &SpaceSource) -> Result<Authored, String> {
-        let blending = texture.blend.blending(|id| self.library.index_of(id));
-        let authored = space.authoring()?.author(texture.at, &blending);
+        let authoring = space.authoring()?;
+        let blend = texture.blend.in_space(authoring.space().n_axes());
+        let blending = blend.blending(|id| self.library.index_of(id));
+        let authored = authoring.author(texture.at, &blending);
         let authored = authored.ok_or_else(|| strings::NO_TEXTURE.to_owned())?;
         authored.shaped(&texture.shape).map_err(|error| error.to_string())
     }

@@ -13,7 +13,7 @@ use shagreen_studio::report::Warnings;
 use super::audible::Audible;
 use super::loaded_textures::{rate_in, rate_of_space};
 use super::messages::Said;
-use super::places::{places, poles_of};
+use super::places::{names_of, places, poles_of};
 use super::{Session, Spectra, drawn_frequencies};
 
 impl Session {
@@ -22,6 +22,7 @@ impl Session {
     pub fn follow(&mut self, project: &Project, heard: Option<&AuthoredTexture>, ctx: &egui::Context) {
         if self.textures.base != project.library {
             let is_same = self.open_library(project);
+            self.textures.columns.clear();
             self.take(project, &is_same);
         }
         let is_same = |(a, b): (&Arc<TextureEntry>, &Arc<TextureEntry>)| Arc::ptr_eq(a, b);
@@ -37,6 +38,9 @@ impl Session {
         };
         let has_same_own = self.textures.own_ids == project.own;
         let has_same_axes = self.textures.axes == project.axes;
+        if !(has_same_textures && has_same_space) {
+            self.textures.columns.clear();
+        }
         if !(has_same_textures && has_same_names && has_same_space && has_same_own && has_same_axes) {
             self.take(project, &vec![true; self.textures.opened.n_textures() + n_same]);
         }
@@ -81,7 +85,7 @@ impl Session {
         self.authored.path_point = self.follow_path(texture.path.as_ref());
         // A path overrides solo.
         let solo = self.solo(project).filter(|_| self.authored.path_point.is_none() && heard.is_none());
-        let at = self.authored.path_point.unwrap_or(texture.at);
+        let at = self.fitted(self.authored.path_point.unwrap_or(texture.at));
         let key = self.follow_key(solo);
         let wanted = (at, self.blending(&texture.blend), texture.shape, solo, key);
         if self.sound.player.wanted.as_ref() != Some(&wanted) {
@@ -106,8 +110,8 @@ impl Session {
     fn take(&mut self, project: &Project, is_same: &[bool]) {
         self.textures.opened.restore(&mut self.textures.library);
         self.textures.library = project.textures_on(std::mem::take(&mut self.textures.library));
-        let axes = project.axes.as_ref();
-        self.textures.places = places(&self.textures.library.textures, axes);
+        let axes = project.axes.as_deref();
+        self.textures.places = places(&self.textures.library, axes, &mut self.textures.columns);
         self.textures.own = project.own_textures(self.textures.library.textures.len());
         let rate_before_hz = self.textures.space_rate_hz;
         self.textures.space_rate_hz = self.rate_of_places(project).0;
@@ -150,7 +154,8 @@ impl Session {
             self.authored.models.cancel();
         }
         (self.authored.pins, self.authored.unheard) = (None, None);
-        self.textures.poles = poles_of(&self.textures.library, axes);
+        self.textures.axis_names = names_of(&self.textures.library, axes);
+        self.textures.poles = poles_of(&self.textures.axis_names);
         (self.textures.joined, self.textures.used, self.textures.axes) =
             (project.joined.clone(), project.space.clone(), project.axes.clone());
         self.textures.renamed.clone_from(&project.renamed);

@@ -103,7 +103,7 @@ mod tests {
             worker.begin(ctx);
             if let Some((ready, _)) = worker.collect() {
                 assert!(!needs_preparation(&ready));
-                return Some(ready.location.at.rough_smooth);
+                return Some(ready.location.at.x());
             }
             if !worker.is_busy() && worker.running.is_none() {
                 return None;

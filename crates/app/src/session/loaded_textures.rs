@@ -11,7 +11,7 @@ use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::placed_space::PlacedSpace;
 use shagreen_formats::project::{OwnTextures, ProjectLibrary};
 
-use super::places::Opened;
+use super::places::{AxisColumns, Opened};
 use super::planes_worker::PlanesWorker;
 
 /// The textures of the library and of the project, by one index.
@@ -33,12 +33,16 @@ pub(super) struct Textures {
     pub(super) renamed: BTreeMap<String, String>,
     /// The space that gave the textures their positions.
     pub(super) used: Option<Arc<PlacedSpace>>,
-    /// The attributes on the axes.
-    pub(super) axes: Option<[String; 2]>,
+    /// The axes that the project chooses.
+    pub(super) axes: Option<Vec<String>>,
+    /// Names of the axes in use.
+    pub(super) axis_names: Vec<String>,
+    /// Coordinates on the axes that the project chooses.
+    pub(super) columns: AxisColumns,
     /// Position of each texture on the canvas.
     pub(super) places: Vec<Option<Place>>,
-    /// Words at the low and the high end of the x axis, then of the y axis.
-    pub(super) poles: [[String; 2]; 2],
+    /// Words at the low and the high end of each axis.
+    pub(super) poles: Vec<[String; 2]>,
     /// Each texture over speed and force.
     pub(super) planes: Vec<Arc<Plane>>,
     /// Sample rate of each plane, in Hz.

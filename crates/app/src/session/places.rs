@@ -1,10 +1,12 @@
-//! Positions of the textures: from the library file, from a space in use, or from two attributes.
+//! Positions of the textures: from the library file, from a space in use, or on axes that the project chooses.
 
 use shagreen_core::people::ratings::poles;
-use shagreen_core::space::SpacePoint;
-use shagreen_formats::library::{Attributes, Library, Place, TextureEntry, USUAL_AXES};
-
-use crate::strings;
+use shagreen_core::space::signal_axes::SignalAxis;
+use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_formats::library::{Attributes, Library, Place, TextureEntry};
+use shagreen_formats::placed_space::is_dimension_name;
+use shagreen_formats::project::plain_axis_name;
+use shagreen_studio::axes::{axis_poles, axis_values};
 
 /// Names, positions, attributes and header of a library as opened, to be restored.
 pub(super) struct Opened {
@@ -48,45 +50,98 @@ impl Opened {
     }
 }
 
-/// Position of each texture: from the attributes of the x axis and the y axis if `axes` names them, otherwise the
-/// texture's own.
-pub(super) fn places(textures: &[TextureEntry], axes: Option<&[String; 2]>) -> Vec<Option<Place>> {
-    let by_attributes = |texture: &TextureEntry, [across, up]: &[String; 2]| {
-        let attributes = texture.attributes.as_ref()?;
-        let at = SpacePoint { rough_smooth: attributes.get(across)?, hard_soft: attributes.get(up)? };
-        Some(Place::new(at, attributes.source))
-    };
-    textures.iter().map(|texture| axes.map_or(texture.place, |axes| by_attributes(texture, axes))).collect()
-}
+/// Coordinates of all textures on one axis; `None` if nothing has the name of the axis.
+type Column = Option<Vec<Option<f64>>>;
 
-/// Names of the attributes on which textures are rated, without duplicates, in order of first appearance.
-pub(super) fn attribute_names(textures: &[TextureEntry]) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
-    for attribute in textures.iter().filter_map(|t| t.attributes.as_ref()).flat_map(|a| &a.values) {
-        if !names.contains(&attribute.name.as_str()) {
-            names.push(&attribute.name);
+/// Coordinates of the textures on the axes in use, by name. They are kept until the textures or their positions change: an
+/// axis that is computed from the vibration takes about a millisecond a texture.
+#[derive(Default)]
+pub(super) struct AxisColumns(Vec<(String, Column)>);
+
+impl AxisColumns {
+    /// Forgets the coordinates, because textures or their positions have changed.
+    pub(super) fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// Computes the coordinates that are missing, and forgets those of other axes.
+    fn follow(&mut self, library: &Library, axes: &[String]) {
+        self.0.retain(|(name, _)| axes.contains(name));
+        for name in axes {
+            if !self.0.iter().any(|(known, _)| known == name) {
+                self.0.push((name.clone(), axis_values(library, name)));
+            }
         }
     }
-    names
+
+    fn coordinate(&self, name: &str, texture: usize) -> Option<f64> {
+        let (_, column) = self.0.iter().find(|(known, _)| known == name)?;
+        *column.as_ref()?.get(texture)?
+    }
 }
 
-/// Words at both ends of both axes: of the selected attributes, otherwise of the axes stated by the library, otherwise
-/// the usual ones.
-pub(super) fn poles_of(library: &Library, axes: Option<&[String; 2]>) -> [[String; 2]; 2] {
-    let usual = [[strings::ROUGH, strings::SMOOTH], [strings::HARD, strings::SOFT]];
-    let named = library.axis_names();
-    [0, 1].map(|axis| match axes {
-        Some(axes) => poles(&axes[axis]),
-        None if named == USUAL_AXES => usual[axis].map(str::to_owned),
-        None => poles(named[axis]),
-    })
+/// Position of each texture: on the axes that `axes` names, otherwise the texture's own. A texture without a coordinate on one
+/// of the axes has no position.
+pub(super) fn places(
+    library: &Library,
+    axes: Option<&[String]>,
+    columns: &mut AxisColumns,
+) -> Vec<Option<Place>> {
+    let names = library.axis_names();
+    let Some(axes) = axes.filter(|axes| names != **axes) else {
+        // A texture that was added on another number of axes would leave no space at all.
+        let is_whole = |place: &Place| place.at.n_axes() == names.len();
+        return library.textures.iter().map(|texture| texture.place.filter(is_whole)).collect();
+    };
+    columns.follow(library, axes);
+    let has_own_plane = axes.len() >= 2 && names.len() >= 2 && names[..2] == axes[..2];
+    let place = |(index, texture): (usize, &TextureEntry)| {
+        let coordinates: Option<Vec<f64>> = axes.iter().map(|name| columns.coordinate(name, index)).collect();
+        let own = texture.place.filter(|_| has_own_plane);
+        let place = Place::new(SpacePoint::of(&coordinates?).ok()?, source(&names, texture, axes));
+        Some(Place { deviation: own.and_then(|own| own.deviation), ..place })
+    };
+    library.textures.iter().enumerate().map(place).collect()
+}
+
+/// Source of a position on these axes: that of the first one that is not computed from the vibration. `names` are the axes of
+/// the texture's own position.
+fn source(names: &[&str], texture: &TextureEntry, axes: &[String]) -> LabelSource {
+    let of_axis = |name: &String| {
+        let own = texture.place.filter(|_| names.contains(&name.as_str())).map(|place| place.source);
+        let rated = || {
+            let attributes = texture.attributes.as_ref()?;
+            attributes.get(plain_axis_name(name)).map(|_| attributes.source)
+        };
+        own.or_else(rated)
+    };
+    axes.iter().find_map(of_axis).unwrap_or(LabelSource::PhysicalLabels)
+}
+
+/// Names of the axes in use: those of the project if it chooses any, or else those of the positions.
+pub(super) fn names_of(library: &Library, axes: Option<&[String]>) -> Vec<String> {
+    match axes {
+        Some(axes) => axes.to_vec(),
+        None => library.axis_names().into_iter().map(str::to_owned).collect(),
+    }
+}
+
+/// Words at both ends of the axes with these names. An attribute may have one word only.
+pub(super) fn poles_of(names: &[String]) -> Vec<[String; 2]> {
+    let ends = |name: &String| {
+        let plain = plain_axis_name(name);
+        let is_named = SignalAxis::from_name(name).is_none() && !is_dimension_name(plain);
+        if is_named { poles(plain) } else { axis_poles(name) }
+    };
+    names.iter().map(ends).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Opened, attribute_names, places, poles_of};
+    use super::{AxisColumns, Opened, names_of, places, poles_of};
     use shagreen_core::space::LabelSource;
-    use shagreen_formats::library::{Attribute, Attributes};
+    use shagreen_core::space::signal_axes::SignalAxis;
+    use shagreen_formats::library::{Attribute, Attributes, Library, Place};
     use shagreen_formats::starter::starter_library;
 
     fn attributes(values: &[(&str, f64)]) -> Attributes {
@@ -94,25 +149,66 @@ mod tests {
         Attributes { source: LabelSource::SimulatedRaters, values: values.iter().map(value).collect() }
     }
 
+    fn names(axes: &[&str]) -> Vec<String> {
+        axes.iter().map(|name| (*name).to_owned()).collect()
+    }
+
+    fn placed(library: &Library, axes: Option<&[String]>) -> Vec<Option<Place>> {
+        places(library, axes, &mut AxisColumns::default())
+    }
+
     #[test]
-    fn attributes_are_axes_where_both_are_known() {
+    fn attributes_are_axes_where_all_are_known() {
         let mut library = starter_library().unwrap();
         library.textures[0].attributes = Some(attributes(&[("flat-bumpy", 3.0), ("warm-cold", 70.0)]));
         library.textures[1].attributes = Some(attributes(&[("flat-bumpy", 5.0)]));
-        let axes = ["warm-cold".to_owned(), "flat-bumpy".to_owned()];
-        let found = places(&library.textures, Some(&axes));
+        let axes = names(&["warm-cold", "flat-bumpy"]);
+        let found = placed(&library, Some(&axes));
         let first = found[0].unwrap();
-        assert_eq!((first.at.rough_smooth, first.at.hard_soft), (70.0, 3.0));
+        assert_eq!((first.at.x(), first.at.y()), (70.0, 3.0));
         assert_eq!(first.source, LabelSource::SimulatedRaters);
         assert!(found[1..].iter().all(Option::is_none));
-        assert_eq!(places(&library.textures, None)[1], library.textures[1].place);
-        assert_eq!(attribute_names(&library.textures), ["flat-bumpy", "warm-cold"]);
-        assert_eq!(poles_of(&library, Some(&axes)), [["warm", "cold"], ["flat", "bumpy"]]);
-        let odd = ["non-stick - sticky".to_owned(), "warm".to_owned()];
-        assert_eq!(poles_of(&library, Some(&odd)), [["non-stick", "sticky"], ["warm", ""]]);
-        assert_eq!(poles_of(&library, None), [["rough", "smooth"], ["hard", "soft"]]);
+        assert_eq!(placed(&library, None)[1], library.textures[1].place);
+        let of = |axes: Option<&[String]>| poles_of(&names_of(&library, axes));
+        assert_eq!(of(Some(&axes)), [["warm", "cold"], ["flat", "bumpy"]]);
+        let odd = names(&["non-stick - sticky", "warm"]);
+        assert_eq!(of(Some(&odd)), [["non-stick", "sticky"], ["warm", ""]]);
+        let computed = names(&["centroid", "dimension 2", "attribute:hard-soft"]);
+        assert_eq!(of(Some(&computed)), [["dull", "bright"], ["low", "high"], ["hard", "soft"]]);
+        assert_eq!(of(None), [["rough", "smooth"], ["hard", "soft"]]);
         library.axes = Some(axes);
-        assert_eq!(poles_of(&library, None), [["warm", "cold"], ["flat", "bumpy"]]);
+        assert_eq!(poles_of(&names_of(&library, None)), [["warm", "cold"], ["flat", "bumpy"]]);
+    }
+
+    #[test]
+    fn further_axes_are_added_to_those_of_the_positions() {
+        let mut library = starter_library().unwrap();
+        library.textures[2].attributes = Some(attributes(&[("sticky-slippery", 64.0)]));
+        let own = library.textures[2].place.unwrap();
+        let axes = names(&["hard-soft", "rough-smooth", "sticky-slippery", "centroid"]);
+        let found = placed(&library, Some(&axes));
+        let centroid = SignalAxis::Centroid.of(&library.textures[2].model).unwrap();
+        let at = found[2].unwrap().at;
+        assert_eq!(at.coordinates(), [own.at.y(), own.at.x(), 64.0, centroid]);
+        assert_eq!((found[2].unwrap().source, found.iter().flatten().count()), (own.source, 1));
+        // The names of the library's own axes change nothing.
+        let usual = names(&["rough-smooth", "hard-soft"]);
+        assert_eq!(placed(&library, Some(&usual)), placed(&library, None));
+        assert!(placed(&library, Some(&names(&["rough-smooth", "sour-sweet"]))).iter().all(Option::is_none));
+        // Axes of the vibration alone are physical.
+        let physical = placed(&library, Some(&names(&["centroid"])));
+        assert!(physical.iter().flatten().all(|place| place.source == LabelSource::PhysicalLabels));
+        assert_eq!(physical.len(), library.textures.len());
+    }
+
+    #[test]
+    fn a_texture_on_another_number_of_axes_has_no_position() {
+        let mut library = starter_library().unwrap();
+        if let Some(place) = &mut library.textures[4].place {
+            place.at = place.at.on(3);
+        }
+        let found = placed(&library, None);
+        assert!(found[4].is_none() && found.iter().flatten().count() == library.textures.len() - 1);
     }
 
     #[test]

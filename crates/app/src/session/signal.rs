@@ -221,7 +221,7 @@ pub(super) fn placed(sidecar: SidecarV1, authored: Option<&Authored>) -> Sidecar
     let Some(authored) = authored else { return sidecar };
     let at = authored.location.at;
     SidecarV1 {
-        at: Some([at.rough_smooth, at.hard_soft]),
+        at: Some(at.coordinates().to_vec()),
         clamped: authored.location.clamped,
         extrapolated: authored.is_extrapolated,
         ..sidecar

@@ -186,7 +186,10 @@ impl Found<'_> {
 fn generation_without_models(space: &Space) -> u64 {
     let mut hasher = DefaultHasher::new();
     for (texture, at) in space.sites() {
-        (texture, at.rough_smooth.to_bits(), at.hard_soft.to_bits()).hash(&mut hasher);
+        texture.hash(&mut hasher);
+        for coordinate in at.coordinates() {
+            coordinate.to_bits().hash(&mut hasher);
+        }
     }
     hasher.finish() | (1 << 63)
 }
@@ -199,7 +202,7 @@ mod tests {
     /// A space of one texture, with this index.
     fn space(texture: usize) -> Space {
         let mut places = vec![None; texture + 1];
-        places[texture] = Some(SpacePoint { rough_smooth: 10.0, hard_soft: 20.0 });
+        places[texture] = Some(SpacePoint::plane(10.0, 20.0));
         Space::new(&places).unwrap()
     }
 

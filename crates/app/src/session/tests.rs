@@ -1,4 +1,5 @@
 mod exact_textures;
+mod further_axes;
 mod messages;
 mod shaped_reliefs;
 mod unheard_spaces;
@@ -18,6 +19,7 @@ use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
 use shagreen_formats::starter::starter_library;
 
 use super::{OutputChoice, Session};
+use crate::state::axes_change::AxesChange;
 use crate::state::edit::{Edit, edited};
 use crate::state::recorder::LONGEST_SECS;
 use crate::state::rig::{Mounted, Rig};
@@ -49,6 +51,13 @@ fn mixed_library() -> Library {
     library
 }
 
+/// Edit that chooses these axes.
+fn set_axes(project: &Project, session: &Session, axes: &[&str]) -> Edit {
+    let axes: Vec<String> = axes.iter().map(|name| (*name).to_owned()).collect();
+    let change = AxesChange::new(project, session.library(), &session.positions(), &axes);
+    Edit::SetAxes(Box::new(change))
+}
+
 /// The axes determine which textures are interpolated, and thereby the sample rate. Undo restores everything.
 #[test]
 fn axes_take_places_and_rate_along_and_give_them_back() {
@@ -61,8 +70,7 @@ fn axes_take_places_and_rate_along_and_give_them_back() {
     assert_eq!((session.space_rate_hz(), session.sound.rate_hz), (1000.0, 1000.0));
     assert_eq!(session.label_source(), "physical labels");
 
-    let axes = Some(["warm-cold", "flat-bumpy"].map(str::to_owned));
-    let turned = edited(&placed, Edit::SetAxes(axes));
+    let turned = edited(&placed, set_axes(&placed, &session, &["warm-cold", "flat-bumpy"]));
     session.follow(&turned, None, &ctx);
     assert_eq!((session.space_rate_hz(), session.sound.rate_hz), (2000.0, 2000.0));
     assert_eq!(session.label_source(), "human ratings");
@@ -147,9 +155,9 @@ fn a_library_is_opened_as_its_file_has_it() {
     let ctx = egui::Context::default();
     let begun = Project { library: ProjectLibrary::BuiltIn(BuiltIn::Simulated), ..new_project() };
     let mut session = Session::new(begun.library.clone()).unwrap();
-    let axes = Some(["hard-soft", "rough-smooth"].map(str::to_owned));
+    let axes = set_axes(&begun, &session, &["hard-soft", "rough-smooth"]);
     let id = session.textures()[3].id.clone();
-    let edits = [Edit::SetMode(Mode::Shared), Edit::SetAxes(axes), Edit::Solo(Some(id))];
+    let edits = [Edit::SetMode(Mode::Shared), axes, Edit::Solo(Some(id))];
     let turned = edits.into_iter().fold(begun, |project, edit| edited(&project, edit));
     session.follow(&turned, None, &ctx);
     let opened = edited(&turned, Edit::OpenLibrary(starter()));
@@ -207,7 +215,7 @@ fn all_that_is_audible_has_the_shape() {
         let made = numbers(&session);
         assert_eq!(made.len(), session.sound.heard.voices.len(), "{mode:?}: all of them are made");
         let mut at = shaped.texture().at;
-        at.rough_smooth += 0.01;
+        at = at.with(0, at.x() + 0.01);
         session.follow(&edited(&shaped, Edit::MovePoint(at)), None, &ctx);
         assert_eq!(numbers(&session) == made, !mode.makes_a_model(), "{mode:?}");
         session.follow(&plain, None, &ctx);
@@ -272,7 +280,7 @@ fn a_generated_texture_changes_no_other_authored_texture() {
 
     let another = AuthoredTexture { blend: one.blend_of_new(), ..AuthoredTexture::new(0, "Second") };
     assert!(another.blend.locked.is_empty());
-    let two = [Edit::Author(another), join(2, "second", second), Edit::Solo(None)];
+    let two = [Edit::Author(Box::new(another)), join(2, "second", second), Edit::Solo(None)];
     let two = two.into_iter().fold(one.clone(), |project, edit| edited(&project, edit));
     follow_until_ready(&mut session, &two);
     let of_second = session.authored().unwrap().clone();

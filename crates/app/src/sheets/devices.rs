@@ -17,6 +17,7 @@ use shagreen_core::units::Kilograms;
 use self::calibration_ui::Measurement;
 use crate::browse::Browse;
 use crate::command::Command;
+use crate::look::scroll_to_focus::scroll_to_focus;
 use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, GROUP_GAP, SCROLL_BAR_ROOM, tokens};
 use crate::session::Session;
@@ -123,6 +124,7 @@ impl DevicesSheet {
                     commands.extend(self.pen_ui(ui, session));
                 });
             });
+            scroll_to_focus(ui);
         });
         commands
     }

@@ -23,6 +23,7 @@ use crate::choices::signals::View;
 use crate::command::Command;
 use crate::command::signals::SignalsCommand;
 use crate::look::list::ShowList as _;
+use crate::look::scroll_to_focus::scroll_to_focus;
 use crate::look::theme::{BUILD_INPUTS_WIDTH, GAP, tokens};
 use crate::panel::Panel;
 use crate::state::background::JobPanicked;
@@ -285,7 +286,10 @@ impl SignalsPage {
         Side::left("signals").exact_size(BUILD_INPUTS_WIDTH).resizable(false).show(ui, |ui| {
             let foot = Frame::new().inner_margin(Margin::symmetric(0, 6));
             Side::bottom("keep").frame(foot).show(ui, |ui| self.keep_ui(ui, panel, &mut commands));
-            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.left_ui(ui, panel, &mut commands));
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                self.left_ui(ui, panel, &mut commands);
+                scroll_to_focus(ui);
+            });
         });
         let frame = Frame::new().fill(t.panel).inner_margin(Margin::same(8));
         CentralPanel::default().frame(frame).show(ui, |ui| {

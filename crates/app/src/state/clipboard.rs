@@ -15,20 +15,20 @@ const BESIDE: f64 = 4.0;
 /// Distance below which two authored textures hide each other on the canvas, in axis units.
 const SAME_PLACE: f64 = 1e-6;
 
-/// Position of a copy of a texture at `at`, offset by some points and inside the space.
+/// Position of a copy of a texture at `at`, offset on the canvas by some points and inside the space.
 pub fn beside(at: SpacePoint) -> SpacePoint {
     // Added to each coordinate, or subtracted if the sum would exceed 100.
     let step = |x: f64| if x + BESIDE <= 100.0 { x + BESIDE } else { x - BESIDE };
-    SpacePoint { rough_smooth: step(at.rough_smooth), hard_soft: step(at.hard_soft) }
+    at.on_canvas_at(SpacePoint::plane(step(at.x()), step(at.y())))
 }
 
 /// An authored texture of a project with the names of what it refers to, and the pinned textures that were added to the
-/// project. `library` is the list of the project, and `axes` are the words at the ends of both axes.
+/// project. `library` is the list of the project, and `axes` are the words at the ends of its axes.
 pub fn copied(
     texture: &AuthoredTexture,
     project: &Project,
     library: &Library,
-    axes: &[[String; 2]; 2],
+    axes: &[[String; 2]],
 ) -> CopiedTexture {
     let named = |id: &String| {
         let index = library.index_of(id)?;
@@ -43,7 +43,7 @@ pub fn copied(
     CopiedTexture {
         texture: texture.clone(),
         library: library.name.clone(),
-        axes: axes.clone(),
+        axes: axes.to_vec(),
         textures: project.joined.iter().filter_map(travels).collect(),
         pinned,
     }
@@ -61,18 +61,31 @@ pub struct Pasted {
 }
 
 /// Fits a copied texture into a project with this library and these axes: its name becomes unique, it does not cover
-/// another authored texture, and pins of textures that neither the library nor the copy has are removed.
+/// another authored texture, and pins of textures that neither the library nor the copy has are removed. Between spaces with other
+/// axes, at least one of them with more or fewer than two, its points keep the coordinates on axes of the same words, and
+/// `complete` gives them the others.
 pub fn pasted(
     copied: CopiedTexture,
     project: &Project,
     library: &Library,
-    axes: &[[String; 2]; 2],
+    axes: &[[String; 2]],
+    complete: impl Fn(&[Option<f64>]) -> SpacePoint,
 ) -> Pasted {
     let mut warnings = Vec::new();
     if copied.library != library.name || copied.axes != *axes {
         warnings.push(strings::from_another_space(&copied.library, &copied.axes));
     }
-    let CopiedTexture { texture, pinned, textures, .. } = copied;
+    let CopiedTexture { mut texture, pinned, textures, axes: before, .. } = copied;
+    if before != *axes && (before.len(), axes.len()) != (2, 2) {
+        let told = |at: SpacePoint| -> Vec<Option<f64>> {
+            let coordinate = |ends: &[String; 2]| at.get(before.iter().position(|known| known == ends)?);
+            axes.iter().map(coordinate).collect()
+        };
+        texture.at = complete(&told(texture.at));
+        for point in texture.path.iter_mut().flat_map(|path| &mut path.points) {
+            *point = complete(&told(*point));
+        }
+    }
     let is_lacking = |entry: &TextureEntry| !is_listed(entry, library);
     let own: Vec<TextureEntry> = textures.into_iter().filter(is_lacking).collect();
     let is_known = |id: &String| own.iter().any(|entry| entry.id == *id) || library.index_of(id).is_some();
@@ -130,6 +143,11 @@ mod tests {
         [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned))
     }
 
+    /// The same axes stay, so that nothing is completed.
+    fn whole(told: &[Option<f64>]) -> SpacePoint {
+        panic!("{told:?}")
+    }
+
     fn starter() -> (Project, Library) {
         let library = BuiltIn::Starter.read().unwrap();
         (Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "Felt"), library)
@@ -146,16 +164,16 @@ mod tests {
         let (mut project, library) = starter();
         for (n, name) in [(1.0, "Felt 2"), (2.0, "Felt 3")] {
             let copy = copied(&pinned("cork"), &project, &library, &axes());
-            let outcome = pasted(copy, &project, &library, &axes());
+            let outcome = pasted(copy, &project, &library, &axes(), whole);
             assert_eq!((outcome.warnings, outcome.own), (Vec::new(), Vec::new()));
             let at = 50.0 + 4.0 * n;
-            assert_eq!(outcome.texture.at, SpacePoint { rough_smooth: at, hard_soft: at });
+            assert_eq!(outcome.texture.at, SpacePoint::plane(at, at));
             assert_eq!(outcome.texture.name, name);
             assert!(outcome.texture.blend.locked.contains("cork"));
-            project = edited(&project, Edit::Author(outcome.texture));
+            project = edited(&project, Edit::Author(Box::new(outcome.texture)));
         }
-        let corner = SpacePoint { rough_smooth: 100.0, hard_soft: 98.0 };
-        assert_eq!(beside(corner), SpacePoint { rough_smooth: 96.0, hard_soft: 94.0 });
+        let corner = SpacePoint::plane(100.0, 98.0);
+        assert_eq!(beside(corner), SpacePoint::plane(96.0, 94.0));
     }
 
     #[test]
@@ -168,7 +186,8 @@ mod tests {
         "Elm".clone_into(&mut source.textures[cork].name);
         let mut texture = pinned("elm");
         texture.blend.locked.insert("glass".to_owned());
-        let outcome = pasted(copied(&texture, &project, &source, &axes()), &project, &library, &axes());
+        let copy = copied(&texture, &project, &source, &axes());
+        let outcome = pasted(copy, &project, &library, &axes(), whole);
         assert_eq!(outcome.texture.blend.locked.iter().collect::<Vec<_>>(), ["glass"]);
         let [space, pins] = &outcome.warnings[..] else { panic!("{:?}", outcome.warnings) };
         assert!(space.contains("library Woods, axes rough to smooth and hard to soft"), "{space}");
@@ -191,7 +210,7 @@ mod tests {
         let mut other = own.clone();
         other.picture = library.textures[1].picture.clone();
         let target = edited(&project, Edit::AddTextures(vec![Arc::new(other)]));
-        let outcome = pasted(copy.clone(), &target, &target.textures_on(library.clone()), &axes());
+        let outcome = pasted(copy.clone(), &target, &target.textures_on(library.clone()), &axes(), whole);
         assert_eq!(outcome.warnings, Vec::<String>::new());
         let after =
             edited(&target, Edit::AuthorWith { texture: Box::new(outcome.texture), own: outcome.own });
@@ -199,6 +218,24 @@ mod tests {
         assert!(after.own.contains("ribs-2") && !after.own.contains("ribs"));
         assert_eq!(after.texture().blend.locked.iter().collect::<Vec<_>>(), ["ribs-2"]);
         // In its own project there is nothing to add.
-        assert_eq!(pasted(copy, &source, &list, &axes()).own, Vec::new());
+        assert_eq!(pasted(copy, &source, &list, &axes(), whole).own, Vec::new());
+    }
+    #[test]
+    fn a_texture_goes_to_a_space_with_other_axes() {
+        let (project, library) = starter();
+        let mut texture = AuthoredTexture::new(1, "Felt");
+        texture.at = SpacePoint::plane(20.0, 30.0);
+        let copy = copied(&texture, &project, &library, &axes());
+        let further = [["hard", "soft"], ["dull", "bright"], ["rough", "smooth"]];
+        let further = further.map(|ends| ends.map(str::to_owned));
+        let complete = |told: &[Option<f64>]| {
+            assert_eq!(told, [Some(30.0), None, Some(20.0)]);
+            SpacePoint::of(&[30.0, 44.0, 20.0]).unwrap()
+        };
+        let outcome = pasted(copy, &project, &library, &further, complete);
+        assert_eq!(outcome.texture.at.coordinates(), [30.0, 44.0, 20.0]);
+        assert_eq!(outcome.warnings.len(), 1, "{:?}", outcome.warnings);
+        let corner = SpacePoint::of(&[100.0, 10.0, 55.0]).unwrap();
+        assert_eq!(beside(corner).coordinates(), [96.0, 14.0, 55.0]);
     }
 }

@@ -246,8 +246,9 @@ mod tests {
 
     /// Project with three authored textures, with keys 1, 2 and 3.
     fn three() -> Project {
-        let add =
-            |project: Project, name: &str| edited(&project, Edit::Author(AuthoredTexture::new(0, name)));
+        let add = |project: Project, name: &str| {
+            edited(&project, Edit::Author(Box::new(AuthoredTexture::new(0, name))))
+        };
         add(add(new_project(), "Second"), "Third")
     }
 
@@ -346,7 +347,7 @@ mod tests {
         let renamed = edited(&edited(&three(), Edit::Select(1)), Edit::Rename("Other".to_owned()));
         compare.follow(&renamed);
         assert_eq!(compare.answers().0, 1);
-        let at = SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 };
+        let at = SpacePoint::plane(1.0, 2.0);
         compare.follow(&edited(&renamed, Edit::MovePoint(at)));
         assert_eq!(compare.answers().0, 0);
     }

@@ -1,5 +1,8 @@
 //! Edits of a project, and their names. The project changes in no other way, so that undo restores it exactly.
 
+mod changes;
+mod path_change;
+
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::mem::{Discriminant, discriminant};
@@ -16,6 +19,10 @@ use shagreen_formats::placed_space::PlacedSpace;
 use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
 use shagreen_formats::text_limits::{MAX_NAME, MAX_NOTES, begin_of};
 
+pub use self::path_change::PathChange;
+
+use self::changes::{author, author_with, change, open, remove, restore, set_own};
+use crate::state::axes_change::{AxesChange, fit_points};
 use crate::strings::edits as strings;
 use shagreen_studio::felt::join_felt;
 use shagreen_studio::height_map::{ReliefPlace, join_relief};
@@ -88,7 +95,7 @@ pub enum Edit {
         notes: String,
     },
     /// Adds an authored texture and selects it.
-    Author(AuthoredTexture),
+    Author(Box<AuthoredTexture>),
     /// Adds an authored texture with the textures that only it uses, and selects it. Its pins of these follow if the list gives
     /// them other identifiers.
     AuthorWith {
@@ -110,8 +117,9 @@ pub enum Edit {
     RemoveSnapshot(usize),
     /// Sets the notes of the project.
     SetProjectNotes(String),
-    /// Opens another library. The points keep their positions, and their pins of textures that belong to them. The space in
-    /// use, axes, other pins, names and stars of textures, and solo belong to the previous library and are reset.
+    /// Opens another library. The points keep their coordinates on as many axes as it has, and their pins of textures that
+    /// belong to them. The space in use, axes, other pins, names and stars of textures, and solo belong to the previous
+    /// library and are reset.
     OpenLibrary(ProjectLibrary),
     /// Embeds the library in the project.
     KeepLibraryInside(ProjectLibrary),
@@ -173,31 +181,10 @@ pub enum Edit {
     Solo(Option<String>),
     /// Takes positions and attributes of the textures from a built space, and resets the axes.
     UseSpace(Arc<PlacedSpace>),
-    /// Sets the attributes of the x axis and the y axis; `None` uses the positions.
-    SetAxes(Option<[String; 2]>),
+    /// Sets the axes of the space, and moves all authored textures, snapshots and paths to them.
+    SetAxes(Box<AxesChange>),
     /// Sets the keys of the authored textures on the sides A and B of a comparison.
     SetCompared([u32; 2]),
-}
-
-/// Kind of change of a path.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PathChange {
-    /// New path.
-    Draw,
-    /// Point added at the end.
-    AddPoint,
-    /// Point moved.
-    MovePoint,
-    /// Point deleted.
-    DeletePoint,
-    /// Length changed.
-    Length,
-    /// Distance or time selected as the measure of the path.
-    Along,
-    /// Behavior at the end changed.
-    AtEnd,
-    /// Path deleted.
-    Clear,
 }
 
 /// Kind of an edit.
@@ -236,8 +223,9 @@ impl Edit {
                 crate::strings::prompt::took(name, material.as_deref()).into()
             }
             Self::ChangePath(change, _) => change.label().into(),
-            Self::Author(texture) => strings::authored(&texture.name).into(),
-            Self::AuthorWith { texture, .. } => strings::authored(&texture.name).into(),
+            Self::Author(texture) | Self::AuthorWith { texture, .. } => {
+                strings::authored(&texture.name).into()
+            }
             Self::Remove(key) => strings::removed(name_of(project, *key)).into(),
             Self::Select(key) => strings::selected(name_of(project, *key)).into(),
             Self::KeepSnapshot => strings::kept_snapshot(name).into(),
@@ -277,21 +265,6 @@ impl Edit {
     /// Whether a drag makes this edit, so that Escape during the drag reverts it.
     pub(crate) fn is_dragged(&self) -> bool {
         matches!(self, Self::MovePoint(_) | Self::SetShape(..) | Self::ChangePath(PathChange::MovePoint, _))
-    }
-}
-
-impl PathChange {
-    fn label(self) -> &'static str {
-        match self {
-            Self::Draw => strings::DRAW_PATH,
-            Self::AddPoint => strings::ADD_PATH_POINT,
-            Self::MovePoint => strings::MOVE_PATH_POINT,
-            Self::DeletePoint => strings::DELETE_PATH_POINT,
-            Self::Length => strings::CHANGE_PATH_LENGTH,
-            Self::Along => strings::CHANGE_PATH_MEASURE,
-            Self::AtEnd => strings::CHANGE_PATH_END,
-            Self::Clear => strings::CLEAR_PATH,
-        }
     }
 }
 
@@ -356,7 +329,7 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
             });
         }
         Edit::ChangePath(_, path) => change(&mut project, |texture| texture.path = path),
-        Edit::Author(texture) => author(&mut project, texture),
+        Edit::Author(texture) => author(&mut project, *texture),
         Edit::AuthorWith { texture, own } => author_with(&mut project, *texture, own),
         Edit::Remove(key) => remove(&mut project, key),
         Edit::Select(key) => {
@@ -399,93 +372,14 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
             }
         }
         Edit::Solo(id) => project.solo = id,
-        Edit::UseSpace(space) => (project.space, project.axes) = (Some(space), None),
-        Edit::SetAxes(axes) => project.axes = axes,
+        Edit::UseSpace(space) => {
+            (project.space, project.axes) = (Some(space), None);
+            fit_points(&mut project);
+        }
+        Edit::SetAxes(change) => change.apply(&mut project),
         Edit::SetCompared(keys) => project.compared = Some(keys),
     }
     project
-}
-
-/// Says whether a texture that was added belongs to the project.
-fn set_own(project: &mut Project, joined: usize, is_own: bool) {
-    let Some(entry) = project.joined.get(joined) else { return };
-    if is_own {
-        project.own.insert(entry.id.clone());
-    } else {
-        project.own.remove(&entry.id);
-    }
-}
-
-/// Changes the selected authored texture.
-fn change(project: &mut Project, change: impl FnOnce(&mut AuthoredTexture)) {
-    change(Arc::make_mut(&mut project.authored[project.selected]));
-}
-
-fn author(project: &mut Project, texture: AuthoredTexture) {
-    let texture = AuthoredTexture { key: project.free_key(), ..texture };
-    project.authored.insert(project.selected + 1, Arc::new(texture));
-    (project.selected, project.solo) = (project.selected + 1, None);
-}
-
-fn author_with(project: &mut Project, mut texture: AuthoredTexture, own: Vec<Arc<TextureEntry>>) {
-    for entry in &own {
-        texture.blend.locked.remove(&entry.id);
-    }
-    let n_before = project.joined.len();
-    project.add_textures(own);
-    let added: Vec<String> = project.joined.iter().skip(n_before).map(|entry| entry.id.clone()).collect();
-    texture.blend.locked.extend(added.iter().cloned());
-    project.own.extend(added);
-    author(project, texture);
-}
-
-fn remove(project: &mut Project, key: u32) {
-    let Some(index) = project.authored.iter().position(|texture| texture.key == key) else { return };
-    if project.authored.len() > 1 {
-        project.authored.remove(index);
-        if index < project.selected || project.selected == project.authored.len() {
-            project.selected -= 1;
-        }
-        project.solo = None;
-    }
-}
-
-fn restore(project: &mut Project, index: usize) {
-    let Some(snapshot) = project.snapshots.get(index).cloned() else { return };
-    project.solo = None;
-    let Some(own) = project.authored.iter().position(|texture| texture.key == snapshot.key) else {
-        // No other texture has its key: a new one never gets that of a snapshot.
-        project.selected += 1;
-        project.authored.insert(project.selected, snapshot);
-        return;
-    };
-    project.selected = own;
-    change(project, |texture| {
-        texture.at = snapshot.at;
-        texture.blend.clone_from(&snapshot.blend);
-        texture.shape = snapshot.shape;
-        texture.path.clone_from(&snapshot.path);
-        texture.picture.clone_from(&snapshot.picture);
-    });
-}
-
-/// Opens a library and resets what belongs to the textures of the previous one. Pins of textures that belong to the points
-/// follow if the library needs other identifiers for these.
-fn open(project: &mut Project, library: ProjectLibrary) {
-    if library == project.library {
-        return;
-    }
-    project.library = library;
-    (project.space, project.axes, project.solo) = (None, None, None);
-    project.renamed.clear();
-    project.starred.clear();
-    let own = &project.own;
-    for texture in &mut project.authored {
-        if !texture.blend.locked.is_subset(own) {
-            Arc::make_mut(texture).blend.locked.retain(|id| own.contains(id));
-        }
-    }
-    project.follow_listed_ids();
 }
 
 #[cfg(test)]

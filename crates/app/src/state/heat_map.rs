@@ -27,6 +27,8 @@ pub struct Wanted {
     pub blending: Blending,
     /// Tip speed and normal force.
     pub contact: Contact,
+    /// Coordinates on the axes that the map does not show; those on its own axes are zero.
+    pub slice: SpacePoint,
     /// Number that changes whenever textures or positions change.
     pub generation: u64,
 }
@@ -39,10 +41,11 @@ pub struct Grid {
     /// Values at the cell centers, row by row from the low end of the y axis, each row from the low end of the x axis.
     /// `None` where there is no value.
     pub values: Vec<Option<f64>>,
-    /// Values with those outside the region continued from its edge, in the same order. Colors are interpolated between
+    /// Values with those outside the outline continued from its edge, in the same order. Colors are interpolated between
     /// cells, so that cells outside determine colors inside.
     pub continued: Vec<Option<f64>>,
-    /// Outline of the region with values, as a polygon; `None` if the whole space has values.
+    /// Outline of the region with values, as a polygon; `None` if the whole space has values, or if the map is a slice of a space
+    /// with more axes.
     pub outline: Option<Arc<[SpacePoint]>>,
 }
 
@@ -135,22 +138,25 @@ fn begin(wanted: Wanted, authoring: Authoring, planes: Vec<Arc<Plane>>, ctx: Con
     std::thread::spawn(move || {
         let planes: Vec<&Plane> = planes.iter().map(|plane| &**plane).collect();
         let mapper = HeatMapper::new(&authoring, &planes, &wanted.blending, wanted.contact, wanted.quantity);
-        // The distance from the textures is defined everywhere.
-        let has_outline = wanted.quantity != Quantity::Distance;
+        // The distance from the textures is defined everywhere. The outline of a slice is not known: there, values end
+        // with the cells.
+        let is_plane = authoring.space().n_axes() == 2;
+        let has_outline = is_plane && wanted.quantity != Quantity::Distance;
         let outline: Option<Arc<[SpacePoint]>> =
             has_outline.then(|| Arc::from(outline(&authoring, &wanted.blending)));
         for side in SIDES {
+            let middle_of = |cell: usize| wanted.slice.on_canvas_at(middle_of(cell, side));
             let mut values = Vec::with_capacity(side * side);
             for cell in 0..side * side {
                 if is_cancelled.load(Ordering::Relaxed) {
                     return;
                 }
-                values.push(mapper.at(middle_of(cell, side)));
+                values.push(mapper.at(middle_of(cell)));
             }
             let is_inside = |cell: usize| {
-                authoring.space().locate(middle_of(cell, side)).is_some_and(|location| !location.clamped)
+                authoring.space().locate(middle_of(cell)).is_some_and(|location| !location.clamped)
             };
-            let continued = continued(&values, side, is_inside);
+            let continued = if is_plane { continued(&values, side, is_inside) } else { values.clone() };
             if sender.send(Grid { side, values, continued, outline: outline.clone() }).is_err() {
                 return;
             }
@@ -162,7 +168,7 @@ fn begin(wanted: Wanted, authoring: Authoring, planes: Vec<Arc<Plane>>, ctx: Con
 
 fn middle_of(cell: usize, side: usize) -> SpacePoint {
     let along = |i: usize| 100.0 * (i as f64 + 0.5) / side as f64;
-    SpacePoint { rough_smooth: along(cell % side), hard_soft: along(cell / side) }
+    SpacePoint::plane(along(cell % side), along(cell / side))
 }
 
 /// Picture of the map, to be clipped to the outline; its first row is the high end of the y axis.
@@ -191,7 +197,7 @@ mod tests {
             [Color32::from_gray(100), Color32::from_gray(50), Color32::from_gray(0), Color32::TRANSPARENT];
         assert_eq!(image.pixels, expected);
         let middle = middle_of(2, 2);
-        assert_eq!((middle.rough_smooth, middle.hard_soft), (25.0, 75.0));
+        assert_eq!((middle.x(), middle.y()), (25.0, 75.0));
         let nothing = Grid { side: 1, values: vec![None], continued: vec![None], outline: None };
         assert_eq!(nothing.range(), None);
     }

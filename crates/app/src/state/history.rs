@@ -145,7 +145,7 @@ mod tests {
     }
 
     fn point(rs: f64) -> Edit {
-        Edit::MovePoint(SpacePoint { rough_smooth: rs, hard_soft: 5.0 })
+        Edit::MovePoint(SpacePoint::plane(rs, 5.0))
     }
 
     #[test]
@@ -268,7 +268,7 @@ mod tests {
         let (mut history, mut project) = begin();
         for (gesture, name) in ["A", "B"].into_iter().enumerate() {
             let texture = AuthoredTexture::new(0, name);
-            history.apply(&mut project, Edit::Author(texture), Gesture(gesture as u64));
+            history.apply(&mut project, Edit::Author(Box::new(texture)), Gesture(gesture as u64));
         }
         let three = project.clone();
         for (gesture, key) in [1, 2, 1].into_iter().enumerate() {
@@ -289,7 +289,7 @@ mod tests {
         joined: &Arc<shagreen_formats::library::TextureEntry>,
     ) -> Edit {
         let share = (number >> 40) as f64 / (1_u64 << 24) as f64;
-        let at = SpacePoint { rough_smooth: 100.0 * share, hard_soft: 100.0 * (7.0 * share).fract() };
+        let at = SpacePoint::plane(100.0 * share, 100.0 * (7.0 * share).fract());
         let key = project.authored[(number >> 20) as usize % project.authored.len()].key;
         let (id, name, is_on) = (format!("id{}", number >> 61), format!("{share}"), number & 64 == 0);
         let built_in = BuiltIn::ALL[(number >> 50) as usize % 2];
@@ -305,13 +305,10 @@ mod tests {
             11 => Edit::SetTags(vec![name]),
             12 => Edit::SetPicture(joined.picture.clone().map(Arc::new).filter(|_| is_on)),
             13 => {
-                let path = UserPath {
-                    points: vec![at, SpacePoint { rough_smooth: 1.0, ..at }],
-                    ..UserPath::default()
-                };
+                let path = UserPath { points: vec![at, at.with(0, 1.0)], ..UserPath::default() };
                 Edit::ChangePath(PathChange::Draw, is_on.then_some(path))
             }
-            14 => Edit::Author(AuthoredTexture { at, ..AuthoredTexture::new(0, &name) }),
+            14 => Edit::Author(Box::new(AuthoredTexture { at, ..AuthoredTexture::new(0, &name) })),
             15 => Edit::Remove(key),
             16 | 17 => Edit::Select(key),
             18 => Edit::KeepSnapshot,

@@ -19,12 +19,14 @@ pub fn pasted(name: &str) -> String {
 }
 
 /// Warning that the position was chosen in another space, named by its library and its axes.
-pub fn from_another_space(library: &str, [across, up]: &[[String; 2]; 2]) -> String {
-    let axis = |[low, high]: &[String; 2]| format!("{low} to {high}");
+pub fn from_another_space(library: &str, axes: &[[String; 2]]) -> String {
+    let names: Vec<String> = axes.iter().map(|[low, high]| format!("{low} to {high}")).collect();
+    let names = match &names[..] {
+        [first @ .., last] if !first.is_empty() => format!("axes {} and {last}", first.join(", ")),
+        names => format!("axis {}", names.join("")),
+    };
     format!(
-        "its position was chosen in another space (library {library}, axes {} and {}), so it may feel different here",
-        axis(across),
-        axis(up)
+        "its position was chosen in another space (library {library}, {names}), so it may feel different here"
     )
 }
 

@@ -4,6 +4,7 @@ use shagreen_core::space::heat_map::Quantity;
 
 pub const MAP: &str = "Map behind the space";
 pub const WAITING: &str = "computing…";
+pub const NO_VALUES: &str = "no values here";
 
 /// Name of a map; `None` is no map.
 pub fn name(quantity: Option<Quantity>) -> &'static str {

@@ -47,6 +47,8 @@ pub const LOOKS_LIKE: &str = "Looks like";
 pub const NO_ENTRY: &str = "The lexicon has no estimates for this material.";
 pub const UNTAKE_HELP: &str = "Moves the point back to the estimate from the picture.";
 
+pub const UNTOLD_HELP: &str = "Neither the words nor the picture say anything of these axes. The point lies at the mean of the textures near it on the other axes.";
+
 /// Estimated position along an axis: the word at its upper end, mean and standard deviation.
 pub fn along([low, high]: &[String; 2], mean: f64, deviation: f64) -> String {
     let word = if high.is_empty() { format!("not {low}") } else { high.clone() };

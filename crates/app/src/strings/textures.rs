@@ -78,7 +78,7 @@ const PASSED_ON_UNKNOWN: &str = "unknown: its license is not stated";
 pub const TERMS_HELP: &str = "License for use and redistribution, as stated in the library file.";
 pub const ATTRIBUTES: &str = "Attributes";
 pub const ATTRIBUTES_HELP: &str =
-    "Values from 0 (first word) to 100 (second word). Any two attributes can be the axes of the space.";
+    "Values from 0 (first word) to 100 (second word). Any of the attributes can be an axis of the space.";
 pub const MODEL: &str = "Model";
 pub const RATE_HELP: &str = "Sample rate of the model, in Hz. It contains no frequencies above half of it.";
 pub const NODES: &str = "speed-force points";
@@ -152,8 +152,8 @@ pub fn tag(tag: &str, n: usize) -> String {
     format!("{tag} ({n})")
 }
 
-/// Region of the space, named by the words at the ends of its axes.
-pub fn region(region: Region, [across, up]: &[[String; 2]; 2]) -> String {
+/// Region of the space, named by the words at the ends of the axes of the canvas.
+pub fn region(region: Region, poles: &[[String; 2]]) -> String {
     let word = |[low, high]: &[String; 2], end: End| match end {
         End::Low => low.clone(),
         // An attribute may have one word only.
@@ -162,7 +162,10 @@ pub fn region(region: Region, [across, up]: &[[String; 2]; 2]) -> String {
     };
     match region {
         Region::Anywhere => ANYWHERE.to_owned(),
-        Region::Quarter([x, y]) => format!("{} and {}", word(across, x), word(up, y)),
+        Region::Quarter(ends) => {
+            let words: Vec<String> = poles.iter().zip(ends).map(|(poles, end)| word(poles, end)).collect();
+            words.join(" and ")
+        }
         Region::NearPoint => NEAR_POINT.to_owned(),
         Region::NotPlaced => NOT_PLACED.to_owned(),
     }
@@ -269,6 +272,7 @@ mod tests {
         ] {
             assert_eq!(region(part, &poles), words);
         }
+        assert_eq!(region(Region::Quarter([End::High, End::High]), &poles[..1]), "smooth");
     }
 
     #[test]

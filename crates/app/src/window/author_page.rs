@@ -3,6 +3,7 @@
 use std::ops::RangeInclusive;
 
 use egui::{CentralPanel, Frame, Margin, Panel as Side, Ui};
+use shagreen_core::space::SpacePoint;
 use shagreen_core::space::heat_map::Quantity;
 use shagreen_formats::settings::PanelSizes;
 
@@ -10,6 +11,7 @@ use super::Window;
 use crate::author::canvas::{CanvasState, ShownMap, canvas_ui};
 use crate::author::inspector::inspector_ui;
 use crate::author::library_panel::{LibraryState, library_ui};
+use crate::author::prompt::axis_names;
 use crate::author::prompt::bar_ui::bar_ui;
 use crate::author::prompt::card_ui::{CardPlace, card_ui};
 use crate::command::Command;
@@ -63,7 +65,9 @@ impl Window {
         let frame = Frame::new().fill(tokens(ctx).panel).inner_margin(Margin::same(6));
         CentralPanel::default().frame(frame).show(ui, |ui| {
             commands.extend(bar_ui(ui, &mut self.prompts, &self.files.settings.prompts));
-            let guess = self.prompts.guess_of(self.project.texture());
+            // An estimate on other axes is shown again when undo brings these back.
+            let names = axis_names(self.session.poles());
+            let guess = self.prompts.guess_of(self.project.texture()).filter(|guess| guess.names == names);
             let area = ui.available_rect_before_wrap();
             self.tour.places[0] = area;
             let AuthorPage { canvas, card, guess_picture, .. } = &mut self.pages.author;
@@ -93,6 +97,7 @@ impl Window {
             quantity,
             blending: session.blending(&texture.blend),
             contact,
+            slice: session.fitted(texture.at).on_canvas_at(SpacePoint::default()),
             generation: session.generation_of(texture),
         });
         self.pages.author.heat.follow(

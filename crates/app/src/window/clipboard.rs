@@ -63,7 +63,9 @@ impl Window {
                 return;
             }
         };
-        let pasted = pasted(copied, &self.project, self.session.library(), self.session.poles());
+        let session = &self.session;
+        let complete = |told: &[Option<f64>]| session.completed(told);
+        let pasted = pasted(copied, &self.project, session.library(), session.poles(), complete);
         let is_used = |color: u8| self.project.authored.iter().any(|texture| texture.color == color);
         let color = if is_used(pasted.texture.color) {
             next_color(&Panel::new(&self.project, &self.session, &self.compare, &self.pictures))

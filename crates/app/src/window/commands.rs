@@ -80,7 +80,7 @@ impl Window {
     fn duplicate(&mut self, ctx: &egui::Context) {
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         let copy = copy_of(&panel, self.project.texture());
-        self.carry_out(Command::Edit(Edit::Author(copy)), ctx);
+        self.carry_out(Command::Edit(Edit::Author(Box::new(copy))), ctx);
     }
 
     /// Selects an authored texture and its name, so that typing replaces the name.
@@ -245,6 +245,7 @@ impl Window {
             Command::ExportAuthored(key) => self.export_authored(key, ctx),
             Command::RenameSelected => self.rename_authored(self.project.texture().key, ctx),
             Command::DeleteSelected => self.delete_selected(ctx),
+            Command::Axes(command) => self.carry_out_axes(command, ctx),
             Command::Clipboard(command) => self.carry_out_clipboard(command, ctx),
             Command::RenameTexture(id) => self.sheet = Sheet::Texture(Box::new(TextureSheet::to_rename(id))),
             Command::OpenShortcuts => self.sheet = Sheet::Shortcuts,

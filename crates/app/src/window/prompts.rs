@@ -15,12 +15,19 @@ use crate::author::prompt::{PositionEstimate, Simulated, axis_names, has_still};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
 use crate::panel::Panel;
+use crate::session::Session;
 use crate::state::edit::Edit;
 use crate::strings::prompt as words;
 use crate::workspace::Workspace;
 
 /// Smallest distance of a new texture from the others, in points of the axes.
 const LEAST_DISTANCE: f64 = 0.1;
+
+/// The estimate with the local mean of the textures on every axis without an estimate, in a space with more axes than the
+/// canvas.
+fn completed(guess: PositionEstimate, session: &Session) -> PositionEstimate {
+    if session.is_sliced() { guess.completed(|told| session.completed(told)) } else { guess }
+}
 
 impl Window {
     /// Executes a command about prompts, and records the prompt in the settings.
@@ -43,7 +50,9 @@ impl Window {
     fn take_material(&mut self, material: Option<String>, ctx: &Context) {
         let texture = self.project.texture();
         let Some(before) = self.prompts.guess_of(texture).map(PositionEstimate::notes) else { return };
-        let Some(guess) = self.prompts.take_material(texture, material.as_deref()) else { return };
+        let session = &self.session;
+        let completed = |guess| completed(guess, session);
+        let Some(guess) = self.prompts.take_material(texture, material.as_deref(), completed) else { return };
         // Notes that the user has written stay.
         let notes = if texture.notes == before { guess.notes() } else { texture.notes.clone() };
         let edit = Edit::TakeMaterial { material, at: guess.at(), picture: guess.picture, notes };
@@ -65,7 +74,7 @@ impl Window {
         if arrived.axes != axis_names(self.session.poles()) {
             return self.session.say(words::OTHER_AXES.to_owned());
         }
-        let guess = arrived.guess;
+        let guess = completed(arrived.guess, &self.session);
         let is_there = |(key, picture): &(u32, Arc<Picture>)| {
             self.project.authored.iter().any(|texture| has_still(texture, *key, picture))
         };
@@ -77,14 +86,14 @@ impl Window {
         } else {
             let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
             let is_taken = |name: &str| self.project.authored.iter().any(|texture| texture.name == name);
-            vec![Edit::Author(AuthoredTexture {
+            vec![Edit::Author(Box::new(AuthoredTexture {
                 color: next_color(&panel),
                 at: guess.at(),
                 picture: Some(Arc::clone(&guess.picture)),
                 notes: guess.notes(),
                 blend: self.project.blend_of_new(),
                 ..AuthoredTexture::new(0, &free_name(&guess.name, is_taken))
-            })]
+            }))]
         };
         self.gesture.begin_another();
         for edit in edits {
@@ -159,10 +168,11 @@ impl Window {
         let replaced =
             earlier.filter(|earlier| replaceable_felt(&self.project, texture.key, earlier).is_some());
         let textures = self.session.textures();
+        let at = self.session.fitted(texture.at);
         let is_far = |(index, site): &(usize, SpacePoint)| {
             replaced.is_some_and(|replaced| replaced.id == textures[*index].id)
-                || site.distance(texture.at) > LEAST_DISTANCE
+                || site.distance(at) > LEAST_DISTANCE
         };
-        (is_own && self.session.placed_for(&texture.blend).iter().all(is_far)).then_some(texture.at)
+        (is_own && self.session.placed_for(&texture.blend).iter().all(is_far)).then_some(at)
     }
 }

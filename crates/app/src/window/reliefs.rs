@@ -90,8 +90,8 @@ impl Window {
                 (format!("{note}{replaces}"), is_path.then_some(strings::IS_PATH))
             }
             ReliefOf::Authored(key) => {
-                let has_model =
-                    self.authored_with(*key).is_some_and(|texture| texture.blend.mode.makes_a_model());
+                let mode = |texture: &AuthoredTexture| self.session.blend_in_space(&texture.blend).mode;
+                let has_model = self.authored_with(*key).is_some_and(|of| mode(of).makes_a_model());
                 (strings::of_authored(&name), (!has_model).then_some(strings::NO_MODEL))
             }
         };

@@ -94,7 +94,7 @@ fn the_export_of_a_texture_waits_for_its_models() {
     let place = Some(Place::new(SpacePoint::new(60.0, 57.0).unwrap(), LabelSource::Estimated));
     let own = TextureEntry { id: "own".to_owned(), place, ..starter_library().unwrap().textures[3].clone() };
     let edits = [
-        Edit::Author(AuthoredTexture::new(0, "Second")),
+        Edit::Author(Box::new(AuthoredTexture::new(0, "Second"))),
         Edit::JoinSimulated { key: 2, entry: Arc::new(own), earlier: None },
         Edit::Select(1),
     ];

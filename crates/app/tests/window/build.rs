@@ -5,6 +5,8 @@ use std::path::Path;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
+use shagreen_app::command::Command;
+use shagreen_app::command::axes::AxesCommand;
 use shagreen_app::strings::{self, build, import};
 use shagreen_app::workspace::Workspace;
 use shagreen_core::people::panel::{PanelConfig, simulated_ratings, simulated_sorts};
@@ -22,6 +24,7 @@ use crate::support::{
     Author, author, author_on, choose, click, drop_files, enter_path, painted, says, shown, unnamed_controls,
     wait, window, words, write_into,
 };
+use crate::views::carry_out;
 
 /// Window in the Build workspace.
 fn builder() -> Author {
@@ -187,7 +190,7 @@ fn tables(prefix: &str) -> [Vec<u8>; 2] {
     let library = starter_library().unwrap();
     let placed = library.textures.iter().map(|t| (t.id.clone(), t.at().unwrap()));
     let (names, labels): (Vec<String>, Vec<Vec<f64>>) =
-        placed.map(|(id, at)| (id, vec![at.rough_smooth, at.hard_soft])).unzip();
+        placed.map(|(id, at)| (id, vec![at.x(), at.y()])).unzip();
     let config = PanelConfig {
         n_participants: 12,
         noise_points: 5.0,
@@ -333,15 +336,17 @@ fn two_attributes_of_a_space_become_the_axes() {
     let mut harness = built();
     use_space(&mut harness);
     let places = window(&harness).session().space().clone();
-    choose(&mut harness, strings::AXIS_UP, "sticky-slippery");
+    // The positions have an axis of the same name.
+    let axes = ["attribute:rough-smooth", "sticky-slippery"].map(str::to_owned).to_vec();
+    carry_out(&mut harness, Command::Axes(AxesCommand::Use(axes.clone())));
     let session = window(&harness).session();
-    assert_eq!(window(&harness).project().axes, Some(["rough-smooth", "sticky-slippery"].map(str::to_owned)));
+    assert_eq!(window(&harness).project().axes, Some(axes));
     assert_eq!(session.poles(), &[["rough", "smooth"], ["sticky", "slippery"]]);
     for (index, texture) in session.textures().iter().enumerate() {
         let at = session.space().position(index).unwrap();
         let attributes = texture.attributes.as_ref().unwrap();
-        assert_eq!(Some(at.rough_smooth), attributes.get("rough-smooth"));
-        assert_eq!(Some(at.hard_soft), attributes.get("sticky-slippery"));
+        assert_eq!(Some(at.x()), attributes.get("rough-smooth"));
+        assert_eq!(Some(at.y()), attributes.get("sticky-slippery"));
     }
     assert!(harness.query_by_role_and_label(Role::Slider, "Sticky to slippery").is_some());
     assert!(harness.query_by_role_and_label(Role::Slider, strings::HARD_SOFT).is_none());

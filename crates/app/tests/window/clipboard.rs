@@ -53,8 +53,7 @@ fn each_paste_is_one_step_and_gets_a_name_of_its_own() {
         assert_eq!(window(&harness).project().texture().name, name);
         assert!(says(&harness, &clipboard::pasted(&name)));
     }
-    let places: Vec<f64> =
-        window(&harness).project().authored.iter().map(|texture| texture.at.rough_smooth).collect();
+    let places: Vec<f64> = window(&harness).project().authored.iter().map(|texture| texture.at.x()).collect();
     assert!(places.windows(2).all(|pair| pair[0] != pair[1]), "they do not cover each other: {places:?}");
     undo(&mut harness);
     assert_eq!(names(&harness), ["New texture", "New texture 2"]);
@@ -67,7 +66,7 @@ fn each_paste_is_one_step_and_gets_a_name_of_its_own() {
 fn a_texture_goes_from_one_project_to_another() {
     let mut texture = AuthoredTexture::new(1, "Handle");
     texture.notes = "for the handle".to_owned();
-    texture.at.rough_smooth = 31.25;
+    texture.at = texture.at.with(0, 31.25);
     texture.blend.locked.extend(["cork".to_owned(), "glass".to_owned()]);
     let authored = vec![Arc::new(texture.clone())];
     let mut source = author_of(begin(Project { authored, ..new_project() }), SIZE);

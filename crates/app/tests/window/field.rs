@@ -118,8 +118,8 @@ fn a_locked_texture_is_met_exactly() {
     let wood = window(&harness).session().textures().iter().position(|t| t.name == "Sanded wood").unwrap();
     assert_eq!(authored(&harness).parents, [(wood, 1.0)]);
     let at = window(&harness).session().space().position(wood).unwrap();
-    move_to(&mut harness, at.rough_smooth + 1.0, at.hard_soft);
-    move_to(&mut harness, at.rough_smooth, at.hard_soft);
+    move_to(&mut harness, at.x() + 1.0, at.y());
+    move_to(&mut harness, at.x(), at.y());
     let smoothed = authored(&harness);
     assert!(smoothed.lock.is_none() && smoothed.parents[0].1 < 0.9, "{:?}", smoothed.parents[0]);
     click(&mut harness, &strings::lock("Sanded wood", true));
@@ -142,7 +142,7 @@ fn a_locked_texture_is_met_exactly() {
     assert!(is_locked(&harness, felt));
     // Near a pinned texture, both the texture and the field play.
     let at = window(&harness).session().space().position(felt).unwrap();
-    move_to(&mut harness, at.rough_smooth, at.hard_soft - 4.0);
+    move_to(&mut harness, at.x(), at.y() - 4.0);
     let (locked, share) = authored(&harness).lock.expect("the circle of felt");
     assert!(locked == felt && share > 0.1 && share < 0.9, "{share}");
     wait(&mut harness, "both are loaded", |h| window(h).session().n_loaded() >= 2);
@@ -215,7 +215,7 @@ fn a_long_drag_keeps_nothing() {
     let start = Instant::now();
     for i in 0..2000 {
         let (a, b) = (0.05 * f64::from(i), 0.031 * f64::from(i));
-        let point = SpacePoint { rough_smooth: 50.0 + 45.0 * a.sin(), hard_soft: 50.0 + 45.0 * b.cos() };
+        let point = SpacePoint::plane(50.0 + 45.0 * a.sin(), 50.0 + 45.0 * b.cos());
         let command = shagreen_app::command::Command::Edit(Edit::MovePoint(point));
         harness.state_mut().as_mut().unwrap().carry_out(command, &ctx);
         harness.step();
@@ -243,7 +243,7 @@ fn thousand() -> Library {
             texture.id = format!("copy-{i}");
             texture.name = format!("Copy {i}");
             texture.picture = None;
-            let at = SpacePoint { rough_smooth: (i * 617 % 1000) as f64 * 0.1, hard_soft: i as f64 * 0.1 };
+            let at = SpacePoint::plane((i * 617 % 1000) as f64 * 0.1, i as f64 * 0.1);
             texture.place = Some(Place::new(at, LabelSource::PhysicalLabels));
             texture
         })

@@ -174,8 +174,8 @@ fn a_texture_that_is_pointed_at_always_has_its_name() {
     let mut heap = BuiltIn::Starter.read().unwrap();
     for (i, texture) in heap.textures.iter_mut().enumerate() {
         let place = texture.place.as_mut().unwrap();
-        place.at.rough_smooth = 40.0 + (i % 5) as f64 * 1.5;
-        place.at.hard_soft = 40.0 + (i / 5) as f64 * 2.5 + (i % 3) as f64;
+        place.at = place.at.with(0, 40.0 + (i % 5) as f64 * 1.5);
+        place.at = place.at.with(1, 40.0 + (i / 5) as f64 * 2.5 + (i % 3) as f64);
     }
     let mut harness = author_on(heap, [960.0, 600.0]);
     harness.run_steps(2);

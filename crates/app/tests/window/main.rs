@@ -11,6 +11,7 @@ mod accessibility;
 mod audible;
 mod author;
 mod authored;
+mod axes;
 mod build;
 mod clipboard;
 mod devices;

@@ -94,7 +94,7 @@ fn a_project_is_saved_left_and_opened_again() {
     keys(&mut harness, Modifiers::COMMAND, Key::S);
     wait_until_saved(&mut harness);
     let saved = project_in(&path);
-    assert_eq!(saved.texture().at.rough_smooth, 63.0);
+    assert_eq!(saved.texture().at.x(), 63.0);
 
     menu(&mut harness, document::NEW);
     assert_eq!(window(&harness).project(), &new_project());
@@ -331,7 +331,7 @@ fn the_first_steps_are_shown_once() {
         let value = 10.0 + 20.0 * number as f64;
         harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(value);
         harness.run_steps(3);
-        assert_eq!(window(&harness).project().texture().at.rough_smooth, value);
+        assert_eq!(window(&harness).project().texture().at.x(), value);
         click(&mut harness, if number == 3 { help::DONE } else { help::NEXT });
         harness.run_steps(2);
     }
@@ -427,7 +427,7 @@ fn new_projects_begin_like_a_chosen_one() {
         modifiers,
     });
     wait(&mut harness, "it is asked", |h| says(h, document::LEAVE_TITLE));
-    assert_eq!(window(&harness).project().texture().at.rough_smooth, 63.0);
+    assert_eq!(window(&harness).project().texture().at.x(), 63.0);
     click(&mut harness, document::DO_NOT_SAVE);
     wait(&mut harness, "a copy of it", |h| window(h).document().path().is_none());
     assert_eq!(window(&harness).project(), &saved);

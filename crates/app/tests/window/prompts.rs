@@ -43,7 +43,7 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     describe(&mut harness, "a rough, soft carpet-like surface");
     let texture = window(&harness).project().texture().clone();
     assert_eq!(texture.name, "a rough, soft carpet-like surface");
-    assert!(texture.at.rough_smooth < 45.0 && texture.at.hard_soft > 60.0, "{}", texture.at);
+    assert!(texture.at.x() < 45.0 && texture.at.y() > 60.0, "{}", texture.at);
     assert!(texture.picture.is_some() && texture.notes.contains("seed 1"));
     let guess = window(&harness).prompts().guess_of(&texture).unwrap().clone();
     assert_eq!(guess.at(), texture.at);
@@ -71,9 +71,9 @@ fn words_become_a_texture_with_a_picture_a_place_and_an_ellipse() {
     // The sliders move the point, and the ellipse keeps the predicted position.
     harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(60.0);
     harness.run_steps(3);
-    assert_eq!(window(&harness).project().texture().at.rough_smooth, 60.0);
+    assert_eq!(window(&harness).project().texture().at.x(), 60.0);
     let moved = window(&harness).project().texture().clone();
-    assert!(window(&harness).prompts().guess_of(&moved).unwrap().at().rough_smooth < 50.0);
+    assert!(window(&harness).prompts().guess_of(&moved).unwrap().at().x() < 50.0);
     click(&mut harness, words::DISMISS);
     assert!(!says(&harness, "Understood:"));
     // The slider, and twice the texture with its simulation.
@@ -118,7 +118,7 @@ fn a_generated_texture_is_its_picture_once_it_is_simulated() {
 fn a_second_prompt_leaves_the_first_texture_as_it_is() {
     let mut harness = author();
     describe(&mut harness, "a rough, soft carpet-like surface");
-    let at = window(&harness).project().texture().at.rough_smooth;
+    let at = window(&harness).project().texture().at.x();
     let moved = if at > 50.0 { at - 3.0 } else { at + 3.0 };
     harness.get_by_role_and_label(Role::Slider, strings::ROUGH_SMOOTH).set_value_accesskit(moved);
     harness.run_steps(3);

@@ -150,13 +150,13 @@ fn estimate(harness: &Author) -> PositionEstimate {
 }
 
 /// Estimates of a material in the lexicon, along the usual axes.
-fn in_lexicon(material: &str) -> [Estimate; 2] {
+fn in_lexicon(material: &str) -> Vec<Estimate> {
     let hints = built_in_lexicon().unwrap().material(material).unwrap().1;
-    [hints[0].unwrap(), hints[1].unwrap()]
+    vec![hints[0].unwrap(), hints[1].unwrap()]
 }
 
-fn at([rough_smooth, hard_soft]: [Estimate; 2]) -> SpacePoint {
-    SpacePoint { rough_smooth: rough_smooth.mean, hard_soft: hard_soft.mean }
+fn at(axes: &[Estimate]) -> SpacePoint {
+    SpacePoint::plane(axes[0].mean, axes[1].mean)
 }
 
 #[test]
@@ -176,8 +176,8 @@ fn materials_are_named_and_a_click_takes_the_lexicon_entry_until_undo() {
     harness.run_steps(3);
     let (moved, taken) = (selected(&harness), estimate(&harness));
     // The point, the ellipse and the card.
-    assert_eq!((moved.at, taken.axes), (at(in_lexicon("carpet")), in_lexicon("carpet")));
-    let [_, hard_soft] = in_lexicon("carpet");
+    assert_eq!((moved.at, taken.axes), (at(&in_lexicon("carpet")), in_lexicon("carpet")));
+    let hard_soft = in_lexicon("carpet")[1];
     assert!(says(&harness, &format!("soft {:.0} ± {:.0}", hard_soft.mean, hard_soft.deviation)));
     assert!(says(&harness, "carpet in the lexicon") && says(&harness, "nobody rated it"));
     assert!(moved.notes.contains("carpet in the lexicon") && moved.picture == landed.picture);
@@ -217,7 +217,7 @@ fn a_picture_that_is_made_from_words_names_no_materials_and_moves_nothing() {
         let made = estimate(&harness);
         let [rough_smooth, hard_soft, ..] = interpret(prompt, built_in_lexicon().unwrap()).attributes;
         assert_eq!(made.axes, [rough_smooth, hard_soft], "{prompt}");
-        assert_eq!(selected(&harness).at, at([rough_smooth, hard_soft]), "{prompt}");
+        assert_eq!(selected(&harness).at, at(&[rough_smooth, hard_soft]), "{prompt}");
         assert!(made.materials.is_empty() && made.doubts.is_empty() && !made.is_disputed);
         assert!(!says(&harness, words::LOOKS_LIKE) && says(&harness, words::BY_WORDS));
     }

@@ -100,12 +100,12 @@ fn tags_narrow_the_list_and_are_counted() {
 #[test]
 fn parts_of_the_space_narrow_the_list() {
     let mut harness = author();
-    let poles = window(&harness).session().poles().clone();
+    let poles = window(&harness).session().poles().to_vec();
     let hard_rough = words::region(Region::Quarter([End::Low, End::Low]), &poles);
     assert_eq!(hard_rough, "rough and hard");
     let space = window(&harness).session().space().clone();
     let at = |i: usize| space.position(i).expect("all are placed");
-    let expected = with(&harness, |i| at(i).rough_smooth < 50.0 && at(i).hard_soft < 50.0);
+    let expected = with(&harness, |i| at(i).x() < 50.0 && at(i).y() < 50.0);
     filter(&mut harness, 0, &hard_rough);
     assert_eq!(listed(&harness), expected);
 

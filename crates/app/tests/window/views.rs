@@ -11,6 +11,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::Begin;
 use shagreen_app::choices::signals::{FromA, Slot, View};
 use shagreen_app::choices::tour::Step;
+use shagreen_app::command::axes::AxesCommand;
 use shagreen_app::command::relief::ReliefCommand;
 use shagreen_app::command::signals::SignalsCommand;
 use shagreen_app::command::stroke::StrokeCommand;
@@ -112,6 +113,13 @@ fn author_views(harness: &mut Author, look: &mut Look<'_>) {
     wait(harness, "the map is there", |h| says(h, ", from ") && !says(h, map::WAITING));
     show(harness, look, "Author, heat map", Kind::Workspace);
     carry_out(harness, Command::ShowMap(None));
+    let axes = ["rough-smooth", "hard-soft", "centroid", "speed exponent", "force exponent"];
+    let axes = axes.map(str::to_owned).to_vec();
+    carry_out(harness, Command::Axes(AxesCommand::Use(axes)));
+    wait_for_field(harness);
+    show(harness, look, "Author, five axes", Kind::Workspace);
+    carry_out(harness, Command::Undo);
+    wait_for_field(harness);
     carry_out(harness, Command::DuplicateTexture);
     carry_out(harness, Command::Compare(CompareCommand::Hear(Side::A)));
     show(harness, look, "Author, comparison", Kind::Workspace);
@@ -189,6 +197,7 @@ fn sheets(harness: &mut Author, look: &mut Look<'_>) {
         ("save project", Command::File(FileCommand::SaveAs)),
         ("export signal", Command::File(FileCommand::Export(WAV.id))),
         ("export texture", Command::File(FileCommand::Export("hatt"))),
+        ("axes", Command::Axes(AxesCommand::Open)),
         ("devices", Command::OpenDevices),
         ("open", Command::File(FileCommand::AskWhatToOpen)),
         ("open stroke", Command::Stroke(StrokeCommand::AskWhatToOpen)),

@@ -11,7 +11,7 @@ use crate::maths::triangulation::Xy;
 /// Several interpolated functions of the plane, defined at the same points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RadialBasis {
-    basis: Basis,
+    basis: Basis<2>,
     /// Rows: one for each point, then the constant, then one for each direction. Columns: one for each function.
     weights: Vec<Vec<f64>>,
 }

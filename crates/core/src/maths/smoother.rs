@@ -1,14 +1,16 @@
-//! Thin-plate smoothing spline over scattered points.
+//! Thin-plate smoothing spline over scattered points, in any number of dimensions.
 //!
 //! The surface minimizes `Σ (s(q_i) - y_i)² + ρ ∫∫ (s_xx² + 2 s_xy² + s_yy²)`, up to a constant factor of the smoothing
 //! parameter `ρ`, here called the ridge (J. Duchon 1977; G. Wahba, "Spline models for observational data", 1990). Its
 //! value at any position is a weighted sum of the measurements. The weights depend on the positions only.
+//!
+//! In more than two dimensions the kernel stays `r² ln r`. It is conditionally positive definite in all of them, so that the
+//! surface is unique and exact for linear functions, but it no longer minimizes this integral.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use crate::maths::radial_basis::{Basis, Kernel};
 use crate::maths::rng::Random;
-use crate::maths::triangulation::Xy;
 
 /// Ridges to select from, for points in the unit square.
 const RIDGES: [f64; 7] = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
@@ -24,19 +26,19 @@ const MOST_FOR_RIDGE: usize = 200;
 
 /// Smoothing spline as weights of the measurements.
 #[derive(Clone, Debug)]
-pub(crate) struct Smoother {
-    basis: Basis,
+pub(crate) struct Smoother<const N: usize> {
+    basis: Basis<N>,
     n_points: usize,
     /// Inverse of the linear system, one row and column for each term.
     inverse: DMatrix<f64>,
 }
 
-impl Smoother {
+impl<const N: usize> Smoother<N> {
     /// Fits the spline to `points`. A ridge of zero interpolates the measurements; a large ridge approaches a plane.
     ///
     /// Returns `None` if there are no points or the points are too close for a unique solution. Cost: cubic in the
     /// number of points.
-    pub(crate) fn new(points: &[Xy], ridge: f64) -> Option<Self> {
+    pub(crate) fn new(points: &[[f64; N]], ridge: f64) -> Option<Self> {
         let n_points = points.len();
         if n_points == 0 {
             return None;
@@ -47,12 +49,12 @@ impl Smoother {
     }
 
     /// Fits the spline with the ridge from [`chosen_ridge`].
-    pub(crate) fn fitted(points: &[Xy], values: &DMatrix<f64>) -> Option<Self> {
+    pub(crate) fn fitted(points: &[[f64; N]], values: &DMatrix<f64>) -> Option<Self> {
         Self::new(points, chosen_ridge(points, values))
     }
 
     /// Weights of the measurements at a position, in point order. They sum to one and can be negative.
-    pub(crate) fn weights(&self, at: Xy) -> Vec<f64> {
+    pub(crate) fn weights(&self, at: [f64; N]) -> Vec<f64> {
         let mut weights = vec![0.0; self.n_points];
         for (column, term) in self.inverse.column_iter().zip(self.basis.terms(at)) {
             for (weight, x) in weights.iter_mut().zip(column.iter()) {
@@ -63,7 +65,7 @@ impl Smoother {
     }
 
     /// Surface through `values`: one row for each point, one column for each quantity.
-    pub(crate) fn surface(&self, values: &DMatrix<f64>) -> Surface {
+    pub(crate) fn surface(&self, values: &DMatrix<f64>) -> Surface<N> {
         let coefficients = self.inverse.columns(0, self.n_points) * values;
         Surface { basis: self.basis.clone(), coefficients: coefficients.transpose() }
     }
@@ -71,15 +73,15 @@ impl Smoother {
 
 /// Several smooth surfaces over the same points.
 #[derive(Clone, Debug)]
-pub(crate) struct Surface {
-    basis: Basis,
+pub(crate) struct Surface<const N: usize> {
+    basis: Basis<N>,
     /// One row for each quantity, one column for each term.
     coefficients: DMatrix<f64>,
 }
 
-impl Surface {
+impl<const N: usize> Surface<N> {
     /// Values of all quantities at a position.
-    pub(crate) fn at(&self, at: Xy) -> Vec<f64> {
+    pub(crate) fn at(&self, at: [f64; N]) -> Vec<f64> {
         let mut sum = vec![0.0; self.coefficients.nrows()];
         for (column, term) in self.coefficients.column_iter().zip(self.basis.terms(at)) {
             for (s, c) in sum.iter_mut().zip(column.iter()) {
@@ -94,9 +96,9 @@ impl Surface {
 ///
 /// The score is `(‖(I - S) Y‖² / n) / (tr(I - S) / n)²`. The result is the ridge nearest to [`USUAL_RIDGE`] whose score
 /// is at most [`SCORE_TOLERANCE`] times the lowest. With too few points for a score it is [`USUAL_RIDGE`].
-pub(crate) fn chosen_ridge(points: &[Xy], values: &DMatrix<f64>) -> f64 {
+pub(crate) fn chosen_ridge<const N: usize>(points: &[[f64; N]], values: &DMatrix<f64>) -> f64 {
     let kept = scattered(points.len(), MOST_FOR_RIDGE);
-    let points: Vec<Xy> = kept.iter().map(|i| points[*i]).collect();
+    let points: Vec<[f64; N]> = kept.iter().map(|i| points[*i]).collect();
     let values = DMatrix::from_fn(kept.len(), values.ncols(), |i, j| values[(kept[i], j)]);
     let Some(scores) = scores(&points, &values) else { return USUAL_RIDGE };
     let lowest = scores.iter().copied().fold(f64::INFINITY, f64::min);
@@ -117,7 +119,7 @@ pub(crate) fn scattered(n: usize, most: usize) -> Vec<usize> {
 }
 
 /// Cross-validation score of each of [`RIDGES`]; `None` if there are at most as many points as linear terms plus one.
-fn scores(points: &[Xy], values: &DMatrix<f64>) -> Option<Vec<f64>> {
+fn scores<const N: usize>(points: &[[f64; N]], values: &DMatrix<f64>) -> Option<Vec<f64>> {
     let n = points.len();
     let basis = Basis::new(points, Kernel::ThinPlate);
     let n_slopes = basis.n_terms() - n;
@@ -148,7 +150,7 @@ fn scores(points: &[Xy], values: &DMatrix<f64>) -> Option<Vec<f64>> {
 
 /// Linear system of all terms: kernels with the ridge on the diagonal, and linear terms, to which the weights must be
 /// orthogonal.
-fn system(basis: &Basis, points: &[Xy], ridge: f64) -> DMatrix<f64> {
+fn system<const N: usize>(basis: &Basis<N>, points: &[[f64; N]], ridge: f64) -> DMatrix<f64> {
     let (n, size) = (points.len(), basis.n_terms());
     let mut matrix = DMatrix::zeros(size, size);
     for (i, point) in points.iter().enumerate() {
@@ -195,7 +197,7 @@ mod tests {
         }
         let line = Smoother::new(&[[0.0, 0.0], [0.5, 0.5], [1.0, 1.0]], 0.0).unwrap();
         assert!((line.weights([0.5, 0.5])[1] - 1.0).abs() < 1e-9);
-        assert!(Smoother::new(&[], 0.1).is_none());
+        assert!(Smoother::<2>::new(&[], 0.1).is_none());
         assert!(Smoother::new(&[[0.5, 0.5]; 3], 0.0).is_none());
     }
 

@@ -12,6 +12,7 @@ pub use crate::space::sampled::Layers;
 
 use self::layers::mean_tap;
 use crate::maths::natural_neighbor::NaturalNeighbors;
+use crate::space::authoring_space::MOST_TRIANGULATED;
 use crate::space::inverse_distance::inverse_distance;
 use crate::space::mean_axes::MeanAxes;
 use crate::space::{Location, Space, SpacePoint};
@@ -68,6 +69,16 @@ pub enum BlendingError {
         "extrapolation outside the convex hull is available only in mode field; change the mode or clamp to the hull"
     )]
     Extrapolated,
+    /// A mode without a field in a space with more than two axes.
+    #[error(
+        "mode {mode} interpolates in triangles, so it needs a space with one or two axes, but this one has {n_axes}; choose mode field, or fewer axes"
+    )]
+    Axes {
+        /// Identifier of the mode.
+        mode: &'static str,
+        /// Number of axes of the space.
+        n_axes: usize,
+    },
     /// Pinned textures in a mode without a field.
     #[error(
         "textures can be pinned only in mode field; in the other modes each texture is exact at its own position"
@@ -82,6 +93,17 @@ impl From<Mode> for Blending {
 }
 
 impl Blending {
+    /// Checks that the mode supports all options, and interpolates in a space with this number of axes.
+    ///
+    /// # Errors
+    /// See [`BlendingError`].
+    pub fn check_in(&self, n_axes: usize) -> Result<(), BlendingError> {
+        if n_axes > MOST_TRIANGULATED && self.mode != Mode::Field {
+            return Err(BlendingError::Axes { mode: self.mode.id(), n_axes });
+        }
+        self.check()
+    }
+
     /// Checks that the mode supports all options.
     ///
     /// # Errors
@@ -234,11 +256,12 @@ impl Authoring {
     }
 
     /// Texture at `point`, or `None` if the space has no textures. Options that the mode does not support are ignored
-    /// (see [`Blending::check`]).
+    /// (see [`Blending::check`]). In a space with more than two axes, every mode is the field ([`Blending::check_in`]).
     pub fn author(&self, point: SpacePoint, blending: &Blending) -> Option<Authored> {
         let location = self.space.locate(point)?;
         let models = self.models.as_deref();
-        let mode = blending.mode;
+        let point = point.on(self.space.n_axes());
+        let mode = if self.space.is_triangulated() { blending.mode } else { Mode::Field };
         let mut authored = Authored {
             location,
             is_extrapolated: false,

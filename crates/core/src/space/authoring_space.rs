@@ -1,65 +1,11 @@
-//! The authoring space: a plane with the axes rough-smooth and hard-soft, on which textures have positions.
+//! The authoring space: one to six axes, usually rough-smooth and hard-soft, on which textures have positions.
+//!
+//! A space with one or two axes is triangulated. One with more has a convex hull, but no triangles; only the field
+//! interpolates in it.
 
-use std::fmt;
-
+use crate::maths::nearest_in_hull::nearest_in_hull;
 use crate::maths::triangulation::{Triangulation, TriangulationError, Xy};
-
-/// A point of the space. Both axes run from 0 (roughest, hardest) to 100 (smoothest, softest).
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SpacePoint {
-    /// Rough (0) to smooth (100).
-    pub rough_smooth: f64,
-    /// Hard (0) to soft (100).
-    pub hard_soft: f64,
-}
-
-/// A coordinate is outside its axis.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("{axis} is {value}; it must be between 0 and 100 (0 is {zero})")]
-pub struct SpacePointError {
-    /// Name of the axis.
-    pub axis: &'static str,
-    /// Value of the coordinate.
-    pub value: f64,
-    /// Meaning of 0 on this axis.
-    pub zero: &'static str,
-}
-
-impl SpacePoint {
-    /// Point with the given coordinates, each 0..100.
-    ///
-    /// # Errors
-    /// [`SpacePointError`] if a coordinate is outside 0..100 or not finite.
-    pub fn new(rough_smooth: f64, hard_soft: f64) -> Result<Self, SpacePointError> {
-        let check = |axis, value: f64, zero| {
-            if (0.0..=100.0).contains(&value) { Ok(()) } else { Err(SpacePointError { axis, value, zero }) }
-        };
-        check("rough-smooth", rough_smooth, "roughest")?;
-        check("hard-soft", hard_soft, "hardest")?;
-        Ok(Self { rough_smooth, hard_soft })
-    }
-
-    /// Euclidean distance to another point, in points of the axes.
-    pub fn distance(self, other: Self) -> f64 {
-        (self.rough_smooth - other.rough_smooth).hypot(self.hard_soft - other.hard_soft)
-    }
-
-    /// Coordinates scaled to the unit square.
-    pub(crate) fn xy(self) -> Xy {
-        [self.rough_smooth / 100.0, self.hard_soft / 100.0]
-    }
-
-    /// Point from coordinates in the unit square; slightly outside is allowed.
-    pub(crate) fn from_xy(xy: Xy) -> Self {
-        Self { rough_smooth: 100.0 * xy[0], hard_soft: 100.0 * xy[1] }
-    }
-}
-
-impl fmt::Display for SpacePoint {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:.1}, {:.1}", self.rough_smooth, self.hard_soft)
-    }
-}
+use crate::space::space_point::{SpacePoint, Unit};
 
 /// Source of the positions in a space. Positions from different sources are never mixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,13 +51,44 @@ impl LabelSource {
     }
 }
 
-/// Positions of textures and their Delaunay triangulation. A texture is identified by its index in the library.
+/// Positions of textures, with their Delaunay triangulation in a space of at most two axes. A texture is identified by its
+/// index in the library.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Space {
+    n_axes: usize,
     /// Library index and position of every texture that has a position.
     sites: Vec<(usize, SpacePoint)>,
+    /// Empty in a space with more than two axes.
     triangulation: Triangulation,
+    /// Positions of the sites in the unit cube; empty in a space of at most two axes.
+    units: Vec<Unit>,
 }
+
+/// Reasons why positions make no space.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SpaceError {
+    /// A coordinate is not finite, or there are too many positions.
+    #[error(transparent)]
+    Triangulation(#[from] TriangulationError),
+    /// Positions have different numbers of axes.
+    #[error(
+        "texture {texture} has a position on {n_axes} axes, but the others on {expected}; give all textures positions on the same axes"
+    )]
+    Axes {
+        /// Library index of the texture.
+        texture: usize,
+        /// Number of axes of its position.
+        n_axes: usize,
+        /// Number of axes of the first position.
+        expected: usize,
+    },
+}
+
+/// Largest number of axes with a triangulation.
+pub(crate) const MOST_TRIANGULATED: usize = 2;
+/// Distance below which two points are the same, in points of the axes.
+const SAME: f64 = 1e-9;
 
 /// Location of a point relative to the textures.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,21 +97,44 @@ pub struct Location {
     pub at: SpacePoint,
     /// Whether the requested point is outside the hull.
     pub clamped: bool,
-    /// Library indices and barycentric weights of the surrounding textures: three, or fewer on an edge of the hull.
-    /// Weights are non-negative and sum to one.
+    /// Library indices and barycentric weights of surrounding textures: at most one more than there are axes, and fewer on
+    /// the hull. Weights are non-negative and sum to one.
     pub corners: Vec<(usize, f64)>,
 }
 
 impl Space {
-    /// Space of the textures that have a position; `positions` is indexed like the library.
+    /// Space of the textures that have a position; `positions` is indexed like the library. Without positions it has two
+    /// axes.
     ///
     /// # Errors
-    /// [`TriangulationError`] if a coordinate is not finite.
-    pub fn new(positions: &[Option<SpacePoint>]) -> Result<Self, TriangulationError> {
+    /// [`SpaceError`] if a coordinate is not finite, or if positions differ in their number of axes.
+    pub fn new(positions: &[Option<SpacePoint>]) -> Result<Self, SpaceError> {
         let sites: Vec<(usize, SpacePoint)> =
             positions.iter().enumerate().filter_map(|(i, p)| p.map(|p| (i, p))).collect();
-        let points: Vec<Xy> = sites.iter().map(|(_, p)| p.xy()).collect();
-        Ok(Self { triangulation: Triangulation::new(&points)?, sites })
+        let expected = sites.first().map_or(2, |(_, at)| at.n_axes());
+        if let Some((texture, at)) = sites.iter().find(|(_, at)| at.n_axes() != expected) {
+            return Err(SpaceError::Axes { texture: *texture, n_axes: at.n_axes(), expected });
+        }
+        if expected <= MOST_TRIANGULATED {
+            let points: Vec<Xy> = sites.iter().map(|(_, p)| p.xy()).collect();
+            let triangulation = Triangulation::new(&points)?;
+            return Ok(Self { n_axes: expected, sites, triangulation, units: Vec::new() });
+        }
+        let units: Vec<Unit> = sites.iter().map(|(_, at)| at.unit()).collect();
+        if let Some(index) = units.iter().position(|unit| unit.iter().any(|x| !x.is_finite())) {
+            return Err(TriangulationError::Coordinate { index }.into());
+        }
+        Ok(Self { n_axes: expected, sites, triangulation: Triangulation::default(), units })
+    }
+
+    /// Number of axes, 1 to [`MOST_AXES`](crate::space::MOST_AXES).
+    pub fn n_axes(&self) -> usize {
+        self.n_axes
+    }
+
+    /// Whether the space is triangulated: only then modes other than the field interpolate in it.
+    pub fn is_triangulated(&self) -> bool {
+        self.n_axes <= MOST_TRIANGULATED
     }
 
     /// Library index and position of every placed texture.
@@ -142,29 +142,36 @@ impl Space {
         &self.sites
     }
 
-    /// Library indices of the corners of all triangles.
+    /// Library indices of the corners of all triangles; none in a space with more than two axes.
     pub fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
         self.triangulation.triangles().map(|t| t.map(|i| self.sites[i].0))
     }
 
-    /// Library indices of the ends of all edges of the convex hull.
+    /// Library indices of the ends of all edges of the convex hull; none in a space with more than two axes.
     pub fn hull(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         self.triangulation.outline().iter().map(|e| e.map(|i| self.sites[i].0))
     }
 
     /// Location of `point`, or `None` if the space has no textures. A point outside the hull is moved to the nearest
     /// point of the hull, with `clamped` set.
+    ///
+    /// A point with another number of axes than the space is extended by the middle of the missing axes, or cut.
     pub fn locate(&self, point: SpacePoint) -> Option<Location> {
+        let point = point.on(self.n_axes);
+        if !self.is_triangulated() {
+            return self.in_hull(point);
+        }
         match self.triangulation.locate(point.xy()) {
             Some((triangle, weights)) => Some(self.inside(point, triangle, weights)),
             None => self.on_hull(point),
         }
     }
 
-    /// Distance of a point from the boundary of the hull, in points of the axes; infinite if the space has no textures.
+    /// Distance of a point from the boundary of the hull, in points of the axes; infinite if the space has no textures or
+    /// no triangulation.
     pub fn hull_distance(&self, point: SpacePoint) -> f64 {
         let nearest = self.triangulation.nearest_on_outline(point.xy());
-        nearest.map_or(f64::INFINITY, |(on, _)| SpacePoint::from_xy(on).distance(point))
+        nearest.map_or(f64::INFINITY, |(on, _)| point.moved_to(on).distance(point))
     }
 
     /// Position of the texture with this library index, or `None` if it has no position.
@@ -181,17 +188,27 @@ impl Space {
 
     fn on_hull(&self, point: SpacePoint) -> Option<Location> {
         let (on, ends) = self.triangulation.nearest_on_outline(point.xy())?;
-        let at = SpacePoint::from_xy(on);
+        let at = point.moved_to(on);
         // If the textures are collinear or fewer than three, a point on their line counts as inside.
-        let clamped = at.distance(point) > 1e-9;
+        let clamped = at.distance(point) > SAME;
         let corners = ends.iter().filter(|(_, w)| *w > 0.0).map(|(c, w)| (self.sites[*c].0, *w)).collect();
         Some(Location { at, clamped, corners })
+    }
+
+    /// Location in a space without a triangulation: the corners are those of the part of the hull in which the nearest point
+    /// lies. They are not unique for a point inside.
+    fn in_hull(&self, point: SpacePoint) -> Option<Location> {
+        let (nearest, corners) = nearest_in_hull(&self.units, point.unit())?;
+        let nearest = SpacePoint::from_unit(self.n_axes, nearest);
+        let clamped = nearest.distance(point) > SAME;
+        let corners = corners.into_iter().map(|(site, weight)| (self.sites[site].0, weight)).collect();
+        Some(Location { at: if clamped { nearest } else { point }, clamped, corners })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{LabelSource, Space, SpacePoint};
+    use super::{LabelSource, Space, SpaceError, SpacePoint};
 
     fn point(rs: f64, hs: f64) -> SpacePoint {
         SpacePoint::new(rs, hs).unwrap()
@@ -249,12 +266,49 @@ mod tests {
     }
 
     #[test]
-    fn points_outside_the_square_are_refused() {
-        for (rs, hs) in [(-0.1, 5.0), (5.0, 100.1), (f64::NAN, 5.0), (5.0, f64::INFINITY)] {
-            assert!(SpacePoint::new(rs, hs).is_err());
+    fn one_axis_is_a_line() {
+        let at = |x: f64| Some(SpacePoint::of(&[x]).unwrap());
+        let space = Space::new(&[at(20.0), at(80.0), at(40.0)]).unwrap();
+        assert!(space.is_triangulated() && space.n_axes() == 1 && space.triangles().count() == 0);
+        let between = space.locate(SpacePoint::of(&[30.0]).unwrap()).unwrap();
+        assert!(!between.clamped);
+        for ((corner, weight), expected) in between.corners.into_iter().zip([0, 2]) {
+            assert!(corner == expected && (weight - 0.5).abs() < 1e-12, "{corner}: {weight}");
         }
-        let error = SpacePoint::new(130.0, 5.0).unwrap_err().to_string();
-        assert!(error.contains("rough-smooth is 130"), "{error}");
+        let outside = space.locate(SpacePoint::of(&[95.0]).unwrap()).unwrap();
+        assert!(outside.clamped && outside.at.distance(at(80.0).unwrap()) < 1e-9);
+        assert_eq!(outside.at.n_axes(), 1);
+    }
+
+    #[test]
+    fn more_than_two_axes_have_a_hull_without_triangles() {
+        let at = |x: f64, y: f64, z: f64| Some(SpacePoint::of(&[x, y, z]).unwrap());
+        let space = Space::new(&[
+            at(0.0, 0.0, 0.0),
+            None,
+            at(90.0, 0.0, 0.0),
+            at(0.0, 90.0, 0.0),
+            at(0.0, 0.0, 90.0),
+        ])
+        .unwrap();
+        assert!(!space.is_triangulated() && space.triangles().count() == 0 && space.hull().count() == 0);
+        let inside = space.locate(at(9.0, 18.0, 27.0).unwrap()).unwrap();
+        assert_eq!((inside.clamped, inside.at), (false, at(9.0, 18.0, 27.0).unwrap()));
+        for (texture, weight) in [(0, 0.4), (2, 0.1), (3, 0.2), (4, 0.3)] {
+            let found = inside.corners.iter().find(|(of, _)| *of == texture).unwrap().1;
+            assert!((found - weight).abs() < 1e-9, "{texture}: {found}");
+        }
+        let outside = space.locate(at(60.0, 60.0, 0.0).unwrap()).unwrap();
+        assert!(outside.clamped && outside.at.distance(at(45.0, 45.0, 0.0).unwrap()) < 1e-9);
+        // A point of the plane lies in the middle of the third axis.
+        assert_eq!(space.locate(point(9.0, 18.0)).unwrap().at, at(9.0, 18.0, 50.0).unwrap());
+        assert!(space.hull_distance(at(1.0, 1.0, 1.0).unwrap()).is_infinite());
+    }
+
+    #[test]
+    fn positions_on_different_axes_make_no_space() {
+        let places = [Some(point(1.0, 2.0)), None, Some(SpacePoint::of(&[1.0, 2.0, 3.0]).unwrap())];
+        assert_eq!(Space::new(&places), Err(SpaceError::Axes { texture: 2, n_axes: 3, expected: 2 }));
     }
 
     #[test]

@@ -11,10 +11,10 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::maths::smoother::{Smoother, Surface, scattered};
-use crate::maths::triangulation::Xy;
 use crate::space::field::anisotropy::Anisotropy;
 use crate::space::mean_axes::MeanAxes;
 use crate::space::sampled::{SampledGrain, Sampling};
+use crate::space::space_point::{MOST_AXES, Unit};
 use crate::texture::tap::Tap;
 use crate::texture::{TextureModel, TextureModelError};
 use crate::units::Hertz;
@@ -42,7 +42,7 @@ const N_STEPS: u32 = 32;
 /// Field over a space.
 #[derive(Clone, Debug)]
 pub(crate) struct Field {
-    smoother: Smoother,
+    smoother: Smoother<MOST_AXES>,
     /// Mean ln density, contact by contact, bin by bin.
     mean: Vec<f32>,
     /// Components, concatenated; each has the length of `mean`.
@@ -57,14 +57,14 @@ pub(crate) struct Field {
 /// Smooth surfaces, clamped to the range of the measured values plus a margin.
 #[derive(Clone, Debug)]
 struct Limited {
-    surface: Surface,
+    surface: Surface<MOST_AXES>,
     /// Lower and upper limit of each surface.
     limits: Vec<(f64, f64)>,
 }
 
 impl Limited {
     /// Surfaces through values with one row per position. `beyond` is the margin as a fraction of the range.
-    fn new(smoother: &Smoother, values: &DMatrix<f64>, beyond: f64) -> Self {
+    fn new(smoother: &Smoother<MOST_AXES>, values: &DMatrix<f64>, beyond: f64) -> Self {
         let limits = values.column_iter().map(|values| {
             let (low, high) = (values.min(), values.max());
             let room = beyond * (high - low);
@@ -73,7 +73,7 @@ impl Limited {
         Self { limits: limits.collect(), surface: smoother.surface(values) }
     }
 
-    fn at(&self, at: Xy) -> Vec<f64> {
+    fn at(&self, at: Unit) -> Vec<f64> {
         let values = self.surface.at(at).into_iter().zip(&self.limits);
         values.map(|(value, (low, high))| value.clamp(*low, *high)).collect()
     }
@@ -82,7 +82,7 @@ impl Limited {
 /// A texture and its position, as input of the field.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Site<'a> {
-    pub(crate) at: Xy,
+    pub(crate) at: Unit,
     /// Grain across the lay.
     pub(crate) grain: &'a SampledGrain,
     /// Grain along the lay; `None` for an isotropic texture.
@@ -94,7 +94,7 @@ pub(crate) struct Site<'a> {
 }
 
 impl Field {
-    /// Field over sites in the unit square; `None` without sites, or if the sites are too close to each other.
+    /// Field over sites in the unit cube; `None` without sites, or if the sites are too close to each other.
     pub(crate) fn new(sites: &[Site<'_>]) -> Option<Self> {
         let n = sites.len();
         let width = sites.first()?.grain.ln_psd.len();
@@ -108,7 +108,7 @@ impl Field {
         let centered = DMatrix::from_fn(width, n, |j, i| f64::from(sites[i].grain.ln_psd[j]) - mean[j]);
         let components = components(&centered);
         let scores = centered.transpose() * &components;
-        let places: Vec<Xy> = sites.iter().map(|site| site.at).collect();
+        let places: Vec<Unit> = sites.iter().map(|site| site.at).collect();
         let smoother = Smoother::fitted(&places, &scores)?;
         Some(Self {
             scores: Limited::new(&smoother, &scores, BEYOND),
@@ -123,7 +123,7 @@ impl Field {
         })
     }
 
-    /// Texture at a point of the unit square, optionally moved by a weight of 0..1 towards the texture of a site. Its grains
+    /// Texture at a point of the unit cube, optionally moved by a weight of 0..1 towards the texture of a site. Its grains
     /// are those across and along the lay of `axes`.
     ///
     /// # Errors
@@ -131,7 +131,7 @@ impl Field {
     pub(crate) fn texture(
         &self,
         sampling: &Sampling,
-        at: Xy,
+        at: Unit,
         axes: &MeanAxes,
         towards: Option<(Site<'_>, f64)>,
     ) -> Result<TextureModel, TextureModelError> {
@@ -167,7 +167,7 @@ impl Field {
     }
 
     /// Weight of each texture at a point, in the order of the sites. Weights sum to one and may be negative.
-    pub(crate) fn weights(&self, at: Xy) -> Vec<f64> {
+    pub(crate) fn weights(&self, at: Unit) -> Vec<f64> {
         self.smoother.weights(at)
     }
 
@@ -176,9 +176,10 @@ impl Field {
     /// texture. Where the highest noise gain so far exceeds [`SURE`], every step is shortened in proportion to the
     /// excess. A hard limit at a gain of one would be discontinuous: a local maximum of the noise gain that just
     /// reaches or just misses one would make the end point jump.
-    pub(crate) fn supported(&self, inside: Xy, to: Xy) -> Xy {
-        let along = |t: f64| [0, 1].map(|axis| inside[axis] + t * (to[axis] - inside[axis]));
-        let noise = |at: Xy| self.weights(at).iter().map(|w| w * w).sum::<f64>();
+    pub(crate) fn supported(&self, inside: Unit, to: Unit) -> Unit {
+        let along =
+            |t: f64| -> Unit { std::array::from_fn(|axis| inside[axis] + t * (to[axis] - inside[axis])) };
+        let noise = |at: Unit| self.weights(at).iter().map(|w| w * w).sum::<f64>();
         let pace = |worst: f64| ((1.0 - worst) / (1.0 - SURE)).clamp(0.0, 1.0);
         let mut worst = noise(inside);
         let mut reached = 0.0;
@@ -244,10 +245,10 @@ fn over_known(
     beyond: f64,
     known: impl Fn(&Site<'_>) -> Option<Vec<f64>>,
 ) -> Option<Limited> {
-    let rows: Vec<(Xy, Vec<f64>)> =
+    let rows: Vec<(Unit, Vec<f64>)> =
         sites.iter().filter_map(|site| known(site).map(|row| (site.at, row))).collect();
     let width = rows.first()?.1.len();
-    let places: Vec<Xy> = rows.iter().map(|(at, _)| *at).collect();
+    let places: Vec<Unit> = rows.iter().map(|(at, _)| *at).collect();
     let values = DMatrix::from_fn(rows.len(), width, |i, j| rows[i].1[j]);
     Some(Limited::new(&Smoother::fitted(&places, &values)?, &values, beyond))
 }

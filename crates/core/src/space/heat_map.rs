@@ -125,7 +125,7 @@ impl<'a> HeatMapper<'a> {
                 {
                     column.push(value);
                 }
-                target.push(at.rough_smooth);
+                target.push(at.x());
             }
         }
         if target.len() < LEAST_PREDICTED {
@@ -167,7 +167,7 @@ mod tests {
     }
 
     fn at(rough_smooth: f64, hard_soft: f64) -> SpacePoint {
-        SpacePoint { rough_smooth, hard_soft }
+        SpacePoint::plane(rough_smooth, hard_soft)
     }
 
     /// A texture with one resonance and the same level everywhere.

@@ -7,17 +7,16 @@
 //! physical labels from its level, contains part of the answer; [`Outcome::shape_error_db`] excludes the overall
 //! level.
 
-mod rest;
+pub(in crate::space) mod rest;
 mod signals;
 
 use crate::dsp::spectrum::median;
 use crate::maths::statistics::mean;
-use crate::maths::triangulation::TriangulationError;
 use crate::space::authoring::{Blending, BlendingError, ModelsError};
 use crate::space::fidelity::{
     Channels, Profile, error_db, is_within_measured, level_error_db, shape_error_db,
 };
-use crate::space::{Space, SpacePoint};
+use crate::space::{Space, SpaceError, SpacePoint};
 use crate::texture::TextureModel;
 use crate::texture::rate::AtRateError;
 use crate::texture::render::RenderError;
@@ -53,8 +52,8 @@ pub struct SignalPlan {
 pub struct LeaveOneOut {
     /// Summary per method: a copy of the nearest texture first, then the interpolation options in their order.
     pub methods: Vec<Summary>,
-    /// Results per evaluated texture, in library order. Only textures strictly inside the hull of the others are
-    /// evaluated.
+    /// Results per evaluated texture, in library order. In a space of one or two axes, only textures strictly inside the hull
+    /// of the others are evaluated.
     pub textures: Vec<LeftOut>,
     /// Library indices of the textures that have a position but lie on the hull, and so are not evaluated.
     pub on_hull: Vec<usize>,
@@ -176,9 +175,9 @@ pub enum LeaveOneOutError {
     /// The mode does not support the interpolation options.
     #[error(transparent)]
     Blending(#[from] BlendingError),
-    /// A position is not finite.
+    /// The positions make no space.
     #[error("the positions of the textures are invalid; every coordinate must be a finite number")]
-    Space(#[from] TriangulationError),
+    Space(#[from] SpaceError),
     /// A texture cannot be converted to the sample rate of the others.
     #[error("texture {texture} cannot be converted to the sample rate of the others")]
     Rate {
@@ -234,7 +233,8 @@ impl LeaveOneOutError {
 }
 
 /// Interpolates every texture that lies strictly inside the hull of the others from the remaining textures, and
-/// compares it with the original. `textures` is indexed like the library; textures without a position are ignored.
+/// compares it with the original. In a space with more than two axes nearly all textures lie on the hull, so all are
+/// evaluated. `textures` is indexed like the library; textures without a position are ignored.
 ///
 /// `on_progress` receives the number of finished textures and their total; returning `false` stops the evaluation.
 /// Cost: one [`crate::space::authoring::Models::new`] per texture, tenths of a second for a hundred textures.
@@ -246,8 +246,9 @@ pub fn leave_one_out(
     plan: &Plan,
     on_progress: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<LeaveOneOut, LeaveOneOutError> {
+    let n_axes = textures.iter().find_map(|(_, at)| *at).map_or(2, SpacePoint::n_axes);
     for blending in &plan.blendings {
-        blending.check()?;
+        blending.check_in(n_axes)?;
     }
     let mut rests = Rests::new(textures);
     let nearest_first = std::iter::once(Method::Nearest);
@@ -282,7 +283,11 @@ fn measure(
     let mut on_hull = Vec::new();
     for (index, texture) in placed.iter().enumerate() {
         let rest = rest_of(textures, texture.texture)?;
-        if is_inside(&rest, texture.at) { inside.push(index) } else { on_hull.push(texture.texture) }
+        if !rest.is_triangulated() || is_inside(&rest, texture.at) {
+            inside.push(index);
+        } else {
+            on_hull.push(texture.texture);
+        }
     }
     if inside.is_empty() {
         return Err(LeaveOneOutError::NoneInside { n: placed.len() });
@@ -326,10 +331,7 @@ fn measure(
 }
 
 /// Space without one texture; its indices are still those of the library.
-fn rest_of(
-    textures: &[(&TextureModel, Option<SpacePoint>)],
-    left_out: usize,
-) -> Result<Space, TriangulationError> {
+fn rest_of(textures: &[(&TextureModel, Option<SpacePoint>)], left_out: usize) -> Result<Space, SpaceError> {
     let place = |(texture, (_, at)): (usize, &(&TextureModel, Option<SpacePoint>))| {
         at.filter(|_| texture != left_out)
     };
@@ -338,9 +340,7 @@ fn rest_of(
 
 /// Spectral distance between the two textures that are farthest apart on the first axis.
 fn reach_db(placed: &[Placed], profiles: &[Profile]) -> f64 {
-    let along = |(a, _): &(&Placed, &Profile), (b, _): &(&Placed, &Profile)| {
-        a.at.rough_smooth.total_cmp(&b.at.rough_smooth)
-    };
+    let along = |(a, _): &(&Placed, &Profile), (b, _): &(&Placed, &Profile)| a.at.x().total_cmp(&b.at.x());
     let all = || placed.iter().zip(profiles);
     match (all().min_by(along), all().max_by(along)) {
         (Some((_, rough)), Some((_, smooth))) => error_db(rough, smooth),

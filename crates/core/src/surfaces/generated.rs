@@ -112,7 +112,7 @@ pub struct Placed {
 pub fn place(words: [Estimate; 2], picture: [Estimate; 2], witness: Witness) -> Placed {
     let axes = [0, 1].map(|axis| agree(words[axis], picture[axis], witness));
     let [rough_smooth, hard_soft] = axes.map(|agreed| agreed.estimate.mean.clamp(0.0, 100.0));
-    Placed { axes, at: SpacePoint { rough_smooth, hard_soft } }
+    Placed { axes, at: SpacePoint::plane(rough_smooth, hard_soft) }
 }
 
 impl Placed {
@@ -198,7 +198,7 @@ mod tests {
         let placed =
             place([of(10.0, 3.0), of(80.0, 10.0)], [of(60.0, 4.0), of(90.0, 10.0)], Witness::OnItsOwn);
         assert_eq!(placed.disputed(), ["rough-smooth"]);
-        assert!((placed.at.hard_soft - 85.0).abs() < 1e-9);
+        assert!((placed.at.y() - 85.0).abs() < 1e-9);
     }
 
     /// "Velvet" was understood as 84 and 87, and the picture of it moved that to 50 and 65.
@@ -207,7 +207,7 @@ mod tests {
         let words = [of(84.0, 9.0), of(87.0, 7.0)];
         let placed = place(words, [of(20.0, 4.0), of(40.0, 4.0)], Witness::OfTheWords);
         assert_eq!(placed.axes.map(|axis| axis.estimate), words);
-        assert_eq!((placed.at.rough_smooth, placed.at.hard_soft), (84.0, 87.0));
+        assert_eq!((placed.at.x(), placed.at.y()), (84.0, 87.0));
         // It is still said that the picture looks different.
         assert_eq!(placed.disputed(), ["rough-smooth", "hard-soft"]);
         let open = agree(OPEN, of(70.0, 5.0), Witness::OfTheWords);

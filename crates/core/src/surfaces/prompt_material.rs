@@ -55,7 +55,7 @@ pub fn imagine(
     let named =
         looks.like.as_ref().and_then(|like| anchors.iter().find(|anchor| anchor.material.id == *like));
     let off = |anchor: &Anchor| {
-        let [rs, hs] = [anchor.place.rough_smooth, anchor.place.hard_soft];
+        let [rs, hs] = [anchor.place.x(), anchor.place.y()];
         ((rs - rough.mean) / rough.deviation).powi(2) + ((hs - hard.mean) / hard.deviation).powi(2)
     };
     let anchor = named.or_else(|| anchors.iter().min_by(|a, b| off(a).total_cmp(&off(b))))?;
@@ -64,9 +64,9 @@ pub fn imagine(
     name.clone_into(&mut material.name);
     material.tags.clear();
 
-    let decades = (anchor.place.rough_smooth - rough.mean) / 100.0 * span.roughness_decades();
+    let decades = (anchor.place.x() - rough.mean) / 100.0 * span.roughness_decades();
     let higher = 10.0_f64.powf(decades).clamp(HEIGHTS.0, HEIGHTS.1);
-    let decades = (anchor.place.hard_soft - hard.mean) / 100.0 * span.hardness_decades();
+    let decades = (anchor.place.y() - hard.mean) / 100.0 * span.hardness_decades();
     let stiffer = 10.0_f64.powf(decades * MODULUS_OF_STIFFNESS);
     material.youngs_modulus_pa = (material.youngs_modulus_pa * stiffer).clamp(MODULI_PA.0, MODULI_PA.1);
     material.height_rms_m = (material.height_rms_m * higher).min(HIGHEST_M);

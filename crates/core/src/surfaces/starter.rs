@@ -140,7 +140,7 @@ pub fn places(labels: &[Labels]) -> Vec<SpacePoint> {
     labels
         .iter()
         .map(|labels| span.axes(labels).map(within))
-        .map(|[rough_smooth, hard_soft]| SpacePoint { rough_smooth, hard_soft })
+        .map(|[rough_smooth, hard_soft]| SpacePoint::plane(rough_smooth, hard_soft))
         .collect()
 }
 
@@ -158,9 +158,9 @@ mod tests {
     fn the_roughest_and_the_hardest_are_at_zero() {
         let labels = |r, h| Labels { roughness_log10_mps2: r, hardness_log10_n_per_m: h };
         let at = places(&[labels(1.0, 3.0), labels(-1.0, 5.0), labels(0.0, 3.5)]);
-        assert_eq!([at[0].rough_smooth, at[1].rough_smooth, at[2].rough_smooth], [0.0, 100.0, 50.0]);
-        assert_eq!([at[0].hard_soft, at[1].hard_soft, at[2].hard_soft], [100.0, 0.0, 75.0]);
-        assert_eq!(places(&[labels(1.0, 3.0)])[0].rough_smooth, 50.0);
+        assert_eq!([at[0].x(), at[1].x(), at[2].x()], [0.0, 100.0, 50.0]);
+        assert_eq!([at[0].y(), at[1].y(), at[2].y()], [100.0, 0.0, 75.0]);
+        assert_eq!(places(&[labels(1.0, 3.0)])[0].x(), 50.0);
         assert!(places(&[]).is_empty());
     }
 

@@ -29,8 +29,8 @@ fn names_of_the_starter_library_lead_to_their_places() {
         let understood = interpret(&texture.name, lexicon);
         let at = texture.at().unwrap();
         let [rough, hard, ..] = understood.attributes;
-        assert!((rough.mean - at.rough_smooth).abs() < 2.0 * rough.deviation, "{}: {rough:?}", texture.name);
-        assert!((hard.mean - at.hard_soft).abs() < 2.0 * hard.deviation, "{}: {hard:?}", texture.name);
+        assert!((rough.mean - at.x()).abs() < 2.0 * rough.deviation, "{}: {rough:?}", texture.name);
+        assert!((hard.mean - at.y()).abs() < 2.0 * hard.deviation, "{}: {hard:?}", texture.name);
         assert!(understood.unknown.is_empty(), "{}: {:?}", texture.name, understood.unknown);
     }
 }

@@ -1,11 +1,11 @@
-//! Attribute values of a texture; two of the attributes may be the axes of a space.
+//! Attribute values of a texture, and the names of the axes of a space, which may be attributes.
 
 use serde_json::Value;
-use shagreen_core::space::LabelSource;
+use shagreen_core::space::{LabelSource, MOST_AXES};
 
 use crate::library::numbers::{DIGITS, digits};
 use crate::library::v1::{AttributeV1, AttributesV1};
-use crate::library::{LibraryError, USUAL_AXES, Unknown};
+use crate::library::{Library, LibraryError, USUAL_AXES, Unknown};
 
 /// Attribute values of a texture with their label source.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,25 +74,55 @@ pub(crate) fn write(attributes: &Attributes, unknown: &Unknown) -> AttributesV1 
 }
 
 /// Validates the axis names of a file.
-pub(crate) fn axes(wire: Option<Vec<String>>) -> Result<Option<[String; 2]>, LibraryError> {
-    let Some(names) = wire else { return Ok(None) };
-    let axes: [String; 2] = names.try_into().map_err(|_| LibraryError::Axes)?;
-    let is_empty = axes.iter().any(|name| name.trim().is_empty());
-    if is_empty || axes[0].eq_ignore_ascii_case(&axes[1]) { Err(LibraryError::Axes) } else { Ok(Some(axes)) }
+pub(crate) fn axes(wire: Option<Vec<String>>) -> Result<Option<Vec<String>>, LibraryError> {
+    match wire {
+        Some(names) if !are_axes(&names) => Err(LibraryError::Axes),
+        names => Ok(names),
+    }
+}
+
+/// Returns whether names can be those of the axes of a space: one to six, none empty, and no two equal, ignoring case.
+pub(crate) fn are_axes<S: AsRef<str>>(names: &[S]) -> bool {
+    let is_sound = |(index, name): (usize, &S)| {
+        let name: &str = name.as_ref();
+        let mut others = names[..index].iter().map(AsRef::as_ref);
+        !name.trim().is_empty() && others.all(|other: &str| !other.eq_ignore_ascii_case(name))
+    };
+    (1..=MOST_AXES).contains(&names.len()) && names.iter().enumerate().all(is_sound)
+}
+
+/// Axes of a library that is read from a file: those that the file states, or else those of the space report. Before version
+/// 1.3, only the report held them.
+pub(super) fn axes_in_file(stated: Option<Vec<String>>, report: Option<&Value>) -> Option<Vec<String>> {
+    let of_report = report.and_then(axes_of_report);
+    match stated {
+        // Stated only because the report names others; see `axes_for_file`.
+        Some(names) if of_report.is_some() && is_usual(&names) => None,
+        Some(names) => Some(names),
+        None => of_report,
+    }
+}
+
+/// Axes that a file of a library must state, so that [`axes_in_file`] gives those of the library again.
+pub(super) fn axes_for_file(library: &Library) -> Option<Vec<String>> {
+    let names_others = library.space_report.as_ref().and_then(axes_of_report).is_some();
+    let usual = || names_others.then(|| USUAL_AXES.map(str::to_owned).to_vec());
+    library.axes.clone().or_else(usual)
 }
 
 /// Returns the axis names in a space report, if they differ from [`USUAL_AXES`].
-pub(super) fn axes_of_report(report: &Value) -> Option<[String; 2]> {
+fn axes_of_report(report: &Value) -> Option<Vec<String>> {
     let names = [0, 1].map(|axis| report["axes"][axis]["name"].as_str());
     let [Some(first), Some(second)] = names else { return None };
-    let names = [first, second].map(|name| name.trim().to_owned());
+    let names = [first, second].map(|name| name.trim().to_owned()).to_vec();
     let is_sound = names.iter().all(|name| !name.is_empty()) && names[0] != names[1];
     (is_sound && !is_usual(&names)).then_some(names)
 }
 
 /// Returns whether these are [`USUAL_AXES`], ignoring case.
-pub(crate) fn is_usual(names: &[String; 2]) -> bool {
-    names.iter().zip(USUAL_AXES).all(|(name, usual)| name.eq_ignore_ascii_case(usual))
+pub(crate) fn is_usual(names: &[String]) -> bool {
+    names.len() == USUAL_AXES.len()
+        && names.iter().zip(USUAL_AXES).all(|(name, usual)| name.eq_ignore_ascii_case(usual))
 }
 
 /// Validates the space report of a file, which must be an object if present.

@@ -27,11 +27,13 @@ pub struct ReliefSource<'a> {
 
 impl Library {
     /// Appends textures. An entry whose identifier is taken gets a new one, because it may have been made for another
-    /// library.
+    /// library. An entry whose position has another number of coordinates than this library has axes loses it.
     pub fn join(&mut self, entries: &[Arc<TextureEntry>]) {
+        let n_axes = self.axis_names().len();
         for entry in entries {
             let mut entry = TextureEntry::clone(entry);
             entry.id = free_id(&entry.id, |id| self.index_of(id).is_some());
+            entry.place = entry.place.filter(|place| place.at.n_axes() == n_axes);
             self.textures.push(entry);
         }
     }
@@ -174,6 +176,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::{Library, Provenance, ReliefSource};
+    use crate::library::Place;
     use crate::starter::starter_library;
     use shagreen_core::space::SpacePoint;
     use shagreen_core::space::texture_path::{Along, AtEnd, Key, Stop, TexturePath};
@@ -183,7 +186,7 @@ mod tests {
 
     fn path(library: &Library) -> TexturePath {
         let key = |i: usize| Key {
-            stop: Stop { at: SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 }, along: i as f64 },
+            stop: Stop { at: SpacePoint::plane(1.0, 2.0), along: i as f64 },
             is_stop: true,
             model: library.textures[i].model.clone(),
         };
@@ -209,6 +212,18 @@ mod tests {
         assert!(over.origin.contains(&bare.name) && over.place.is_none());
         assert_eq!(over.license, "(MIT OR Apache-2.0) AND LicenseRef-unknown");
         assert_eq!(over.provenance, Provenance::Restricted);
+    }
+
+    #[test]
+    fn a_joined_texture_keeps_a_position_on_as_many_axes() {
+        let starter = starter_library().unwrap();
+        let mut library = starter.clone();
+        let mut deep = starter.textures[1].clone();
+        let place = deep.place.unwrap();
+        deep.place = Some(Place { at: place.at.on(3), ..place });
+        library.join(&[Arc::new(starter.textures[0].clone()), Arc::new(deep)]);
+        let joined = &library.textures[starter.textures.len()..];
+        assert_eq!((joined[0].place, joined[1].place), (starter.textures[0].place, None));
     }
 
     #[test]

@@ -1,12 +1,13 @@
 //! Errors of reading a texture library.
 
-use shagreen_core::space::SpacePointError;
 use shagreen_core::space::texture_path::TexturePathError;
 use shagreen_core::texture::TextureModelError;
 use shagreen_core::texture::stick_slip::StickSlipError;
 use shagreen_core::texture::tap::TapError;
+use shagreen_core::words::counted;
 
 use crate::foreign_file::Found;
+use crate::library::coordinates::CoordinatesError;
 use crate::library::{FORMAT, VERSION_MAJOR, VERSION_MINOR};
 use crate::own_json::HeaderFault;
 use crate::text_limits::TooLong;
@@ -45,11 +46,39 @@ pub enum LibraryError {
         /// The version of the file.
         found: String,
     },
-    /// `axes` is not two different attribute names.
+    /// `axes` is not one to six different names.
     #[error(
-        "`axes` must be two different attribute names; correct them, or remove `axes` to use rough-smooth and hard-soft"
+        "`axes` must be one to six different names of axes; correct them, or remove `axes` to use rough-smooth and hard-soft"
     )]
     Axes,
+    /// A position has another number of coordinates than the space has axes.
+    #[error(
+        "the position of texture \"{id}\" has {}, but the number of axes is {n_axes}; give it one coordinate for each axis, or correct `axes`",
+        counted(*.n, "coordinate")
+    )]
+    AxisCount {
+        /// Identifier of the texture.
+        id: String,
+        /// Number of its coordinates.
+        n: usize,
+        /// Number of axes.
+        n_axes: usize,
+    },
+    /// A point of a path has another number of coordinates than the first one.
+    #[error(
+        "key {number} of the path of texture \"{id}\" has {}, but the first key has {expected}; give all keys the same number",
+        counted(*.n, "coordinate")
+    )]
+    KeyCount {
+        /// Identifier of the texture.
+        id: String,
+        /// Number of the key, from one.
+        number: usize,
+        /// Number of its coordinates.
+        n: usize,
+        /// Number of coordinates of the first key.
+        expected: usize,
+    },
     /// The space report is not an object.
     #[error("`space_report` is not an object; remove it, or build the space again")]
     Report,
@@ -111,7 +140,7 @@ pub enum LibraryError {
         /// Identifier of the texture.
         id: String,
         /// What is wrong.
-        source: SpacePointError,
+        source: CoordinatesError,
     },
     /// A standard deviation of a position is outside 0 to 100.
     #[error(

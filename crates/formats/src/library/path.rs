@@ -1,10 +1,10 @@
 //! Conversion of texture paths from and to the library format.
 
-use shagreen_core::space::SpacePoint;
 use shagreen_core::space::texture_path::{Along, AtEnd, Key, MAX_KEYS, Stop, TexturePath};
 use shagreen_core::units::Hertz;
 
 use crate::library::anchors::{anchors, anchors_of, grain, nodes_along};
+use crate::library::coordinates::CoordinatesV1;
 use crate::library::numbers::{CONVERSION_DIGITS, DIGITS, decimals, digits};
 use crate::library::v1::{KeyV1, PathV1, TapV1};
 use crate::library::{LibraryError, Unknown, UnknownOfKey};
@@ -35,8 +35,7 @@ pub(super) fn read(
     let key = |(index, wire): (usize, KeyV1)| {
         let id = &format!("{id}, key {} of its path", index + 1);
         let mut left = UnknownOfKey { key: wire.unknown, ..UnknownOfKey::default() };
-        let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
-            .map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
+        let at = wire.at.point().map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
         let tap = wire.tap.map(|wire| tap::read(id, wire, &mut left.tap)).transpose()?;
         let relief = wire.relief.map(|wire| relief::read(id, wire, &mut left.relief)).transpose()?;
         let height_map =
@@ -57,11 +56,28 @@ pub(super) fn read(
         unknown.keys.push(left);
         Ok(Key { stop: Stop { at, along: along.unit().0 * wire.along }, is_stop: wire.stop, model })
     };
-    let keys = wire.keys.into_iter().enumerate().map(key).collect::<Result<_, LibraryError>>()?;
+    let keys: Vec<Key> = wire.keys.into_iter().enumerate().map(key).collect::<Result<_, LibraryError>>()?;
+    check_counts(id, &keys)?;
     if unknown.keys.iter().all(|left| *left == UnknownOfKey::default()) {
         unknown.keys.clear();
     }
     TexturePath::new(along, at_end, keys).map_err(|source| LibraryError::Path { id: id.to_owned(), source })
+}
+
+/// Checks that all keys of a path lie on the same number of axes. They may be others than those of the library: a path that was
+/// authored on further axes keeps its points.
+fn check_counts(id: &str, keys: &[Key]) -> Result<(), LibraryError> {
+    let Some(first) = keys.first() else { return Ok(()) };
+    let n_axes = first.stop.at.n_axes();
+    match keys.iter().position(|key| key.stop.at.n_axes() != n_axes) {
+        None => Ok(()),
+        Some(index) => Err(LibraryError::KeyCount {
+            id: id.to_owned(),
+            number: index + 1,
+            n: keys[index].stop.at.n_axes(),
+            expected: n_axes,
+        }),
+    }
 }
 
 /// Converts a path to the form of a file.
@@ -76,8 +92,7 @@ pub(super) fn write(path: &TexturePath, unknown: &Unknown) -> PathV1 {
         KeyV1 {
             unknown: left.key,
             along: digits(key.stop.along / path.along().unit().0, CONVERSION_DIGITS),
-            rough_smooth: decimals(key.stop.at.rough_smooth),
-            hard_soft: decimals(key.stop.at.hard_soft),
+            at: CoordinatesV1::of(key.stop.at, decimals),
             stop: key.is_stop,
             mu: key.model.friction().map(|mu| digits(mu, DIGITS)),
             tap: key.model.tap().map(|of| TapV1 { unknown: left.tap, ..tap::write(of) }),

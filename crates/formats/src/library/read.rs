@@ -5,14 +5,14 @@ use std::collections::HashSet;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Value;
-use shagreen_core::space::{LabelSource, SpacePoint};
+use shagreen_core::space::LabelSource;
 use shagreen_core::units::Hertz;
 
 use crate::imported::Imported;
 use crate::library::anchors::{grain, nodes_along};
 use crate::library::v1::{LibraryV1, PictureV1, RESTRICTED, SpaceV1, TextureV1, UNITS, UnitsV1};
 use crate::library::{
-    FORMAT, Library, LibraryError, PhysicalLabels, Place, Provenance, TextureEntry, Unknown,
+    FORMAT, Library, LibraryError, PhysicalLabels, Place, Provenance, TextureEntry, USUAL_AXES, Unknown,
     UnknownOfLibrary, VERSION_MAJOR, VERSION_MINOR,
 };
 use crate::library::{attributes, height_map, path, relief, stick_slip, tap, turn};
@@ -80,9 +80,13 @@ fn checked(wire: LibraryV1, minor: u32) -> Result<Imported<Library>, LibraryErro
         }
     }
     let space_report = attributes::report(wire.space_report)?;
-    // Before version 1.3 only the space report held the axis names.
-    let axes =
-        attributes::axes(wire.axes)?.or_else(|| space_report.as_ref().and_then(attributes::axes_of_report));
+    let axes = attributes::axes_in_file(attributes::axes(wire.axes)?, space_report.as_ref());
+    let n_axes = axes.as_ref().map_or(USUAL_AXES.len(), Vec::len);
+    for TextureEntry { id, place, .. } in &textures {
+        if let Some(place) = place {
+            check_count(id, place, n_axes)?;
+        }
+    }
     let library = Library {
         name: wire.name,
         description: wire.description,
@@ -195,10 +199,17 @@ fn provenance(id: &str, word: String) -> Result<Provenance, LibraryError> {
     }
 }
 
+/// Checks that the position of the texture with this identifier has as many coordinates as its space has axes.
+pub(crate) fn check_count(id: &str, place: &Place, n_axes: usize) -> Result<(), LibraryError> {
+    match place.at.n_axes() {
+        n if n == n_axes => Ok(()),
+        n => Err(LibraryError::AxisCount { id: id.to_owned(), n, n_axes }),
+    }
+}
+
 pub(crate) fn place(id: &str, wire: SpaceV1, unknown: &mut Unknown) -> Result<Place, LibraryError> {
     unknown.space = wire.unknown;
-    let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
-        .map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
+    let at = wire.at.point().map_err(|source| LibraryError::Place { id: id.to_owned(), source })?;
     let source = LabelSource::from_id(&wire.label_source)
         .ok_or_else(|| LibraryError::LabelSource { id: id.to_owned(), found: wire.label_source })?;
     if wire.sd.is_some_and(|sd| sd.iter().any(|sd| !(0.0..=100.0).contains(sd))) {

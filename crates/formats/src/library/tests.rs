@@ -1,3 +1,5 @@
+mod further_axes;
+
 use super::{
     Library, LibraryError, PhysicalLabels, Place, TextureEntry, VERSION_MAJOR, VERSION_MINOR, read_library,
     write_library,

@@ -1,7 +1,9 @@
-//! File format of a library, versions 1.0 to 1.7.
+//! File format of a library, versions 1.0 to 1.8.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
+
+use crate::library::coordinates::CoordinatesV1;
 
 #[derive(Serialize, Deserialize)]
 pub(crate) struct LibraryV1 {
@@ -19,7 +21,7 @@ pub(crate) struct LibraryV1 {
     pub(super) created_by: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) seed: Option<u64>,
-    /// Since 1.3.
+    /// Since 1.3; another number of names than two since 1.8.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) axes: Option<Vec<String>>,
     /// Since 1.2.
@@ -111,8 +113,8 @@ pub(super) struct PathV1 {
 #[derive(Serialize, Deserialize)]
 pub(super) struct KeyV1 {
     pub(super) along: f64,
-    pub(super) rough_smooth: f64,
-    pub(super) hard_soft: f64,
+    #[serde(flatten)]
+    pub(super) at: CoordinatesV1,
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub(super) stop: bool,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -172,8 +174,8 @@ pub(super) struct StickSlipV1 {
 
 #[derive(Serialize, Deserialize)]
 pub(crate) struct SpaceV1 {
-    pub(super) rough_smooth: f64,
-    pub(super) hard_soft: f64,
+    #[serde(flatten)]
+    pub(super) at: CoordinatesV1,
     pub(super) label_source: String,
     /// Since 1.7.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -3,23 +3,26 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::Map;
-use shagreen_core::space::LabelSource;
 use shagreen_core::space::texture_path::TexturePath;
+use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::{Interpolation, TextureModel};
 
 use crate::layout;
 use crate::library::anchors::{anchors, anchors_of, interpolation_word};
+use crate::library::coordinates::CoordinatesV1;
 use crate::library::numbers::{CONVERSION_DIGITS, DIGITS, decimals, digits};
 use crate::library::v1::{
     LibraryV1, PhysicalV1, PictureV1, RESTRICTED, SpaceV1, TapV1, TextureV1, UNITS, UnitsV1,
 };
-use crate::library::{FORMAT, Library, Place, Provenance, TextureEntry, VERSION_MAJOR};
+use crate::library::{FORMAT, Library, Place, Provenance, TextureEntry, USUAL_AXES, VERSION_MAJOR};
 use crate::library::{attributes, height_map, path, relief, stick_slip, tap, turn};
 use crate::picture::Picture;
 /// Nesting depth up to which values get their own lines. Each anchor (in library, textures, texture, anchors) fills one
 /// line.
 const OPEN_DEPTH: usize = 4;
 
+/// The minor version that introduced spaces with another number of axes than two.
+const WITH_FURTHER_AXES: u32 = 8;
 /// The minor version that introduced grain along the lay, rotation, height maps, stick-slip friction and standard
 /// deviations of positions.
 const WITH_DIRECTION: u32 = 7;
@@ -62,7 +65,7 @@ pub(crate) fn wire(library: &Library) -> LibraryV1 {
         licence: library.license.clone(),
         created_by: library.created_by.clone(),
         seed: library.seed,
-        axes: library.axes.clone().map(Vec::from),
+        axes: attributes::axes_for_file(library),
         space_report: library.space_report.clone(),
         unknown: library.unknown.library.clone(),
         textures: library.textures.iter().map(texture).collect(),
@@ -109,8 +112,7 @@ pub(crate) fn texture(entry: &TextureEntry) -> TextureV1 {
 /// Converts a position to the form of a file.
 pub(crate) fn place(place: Place) -> SpaceV1 {
     SpaceV1 {
-        rough_smooth: decimals(place.at.rough_smooth),
-        hard_soft: decimals(place.at.hard_soft),
+        at: CoordinatesV1::of(place.at, decimals),
         label_source: place.source.id().to_owned(),
         sd: place.deviation.map(|sd| sd.map(decimals)),
         unknown: Map::new(),
@@ -138,6 +140,14 @@ fn models(entry: &TextureEntry) -> impl Iterator<Item = &TextureModel> {
 /// Returns the lowest minor version that has all features of a library, so that older programs can read as much as
 /// possible.
 fn minor_version(library: &Library) -> u32 {
+    let is_plane = |at: SpacePoint| at.n_axes() == USUAL_AXES.len();
+    let has_two_axes = |entry: &TextureEntry| {
+        let mut keys = entry.path.iter().flat_map(TexturePath::keys);
+        entry.at().is_none_or(is_plane) && keys.all(|key| is_plane(key.stop.at))
+    };
+    if library.axis_names().len() != USUAL_AXES.len() || !library.textures.iter().all(has_two_axes) {
+        return WITH_FURTHER_AXES;
+    }
     let has_direction = |model: &TextureModel| {
         let has_layer = model.along().is_some() || model.height_map().is_some();
         has_layer || model.stick_slip().is_some() || model.turn_rad() != 0.0
@@ -160,7 +170,7 @@ fn minor_version(library: &Library) -> u32 {
     if library.textures.iter().any(|entry| entry.path.is_some()) {
         return WITH_PATHS;
     }
-    if library.axes.is_some() {
+    if attributes::axes_for_file(library).is_some() {
         return WITH_AXES;
     }
     if library.space_report.is_some() || library.textures.iter().any(|entry| entry.attributes.is_some()) {

@@ -12,6 +12,7 @@ use tiff::{ColorType, TiffError, TiffUnsupportedError};
 
 use super::error::{PictureError, VARIANT};
 use super::photo_limits::{MAX_PHOTO_BYTES, check_memory};
+use super::tiff_tags::check_tags;
 use super::{MAX_PHOTO_SIDE, stretched_levels};
 
 /// Largest magnitude of a number that counts as measured. Programs mark places without a measurement by the largest
@@ -54,6 +55,7 @@ struct SampleLayout {
 /// [`PictureError::Unsupported`], [`PictureError::Gaps`], [`PictureError::LargePhoto`], [`PictureError::TooLarge`],
 /// [`PictureError::CutOff`] and [`PictureError::Codec`].
 pub(super) fn tiff_photo(bytes: &[u8]) -> Result<TiffPhoto, PictureError> {
+    check_tags(bytes)?;
     let mut decoder = Decoder::new(Cursor::new(bytes)).map_err(refused)?;
     let (width, height) = decoder.dimensions().map_err(refused)?;
     if width.max(height) > MAX_PHOTO_SIDE {

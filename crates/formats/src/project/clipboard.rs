@@ -12,8 +12,10 @@
 //! ```
 //!
 //! `texture` is an authored texture in the project format. `library` and `axes` name the space in which its position was
-//! chosen, and `pinned` names its pinned textures, so that another project can say what it lacks. `textures`, if there are any,
+//! chosen, with the words at both ends of each axis, and `pinned` names its pinned textures, so that another project can say what it lacks. `textures`, if there are any,
 //! are those of the pinned textures that were added to its project, in the format of a library: no other library has them.
+//!
+//! `axes` has one entry for each coordinate of the texture. With another number of axes than two, the version is 2.
 
 use std::collections::BTreeMap;
 
@@ -35,8 +37,10 @@ use crate::text_limits::{self, MAX_ID, MAX_NAME, MAX_NOTES};
 
 /// Value of the `shagreen` field.
 const KIND: &str = "authored texture";
-/// Version that is written and read.
+/// Version of a texture on two axes.
 const VERSION: u32 = 1;
+/// Version of a texture on another number of axes.
+const VERSION_FURTHER_AXES: u32 = 2;
 /// Maximum length of the text, in bytes; it may contain a picture.
 const MAX_BYTES: usize = 16 << 20;
 /// Nesting depth up to which values get their own lines.
@@ -49,8 +53,8 @@ pub struct CopiedTexture {
     pub texture: AuthoredTexture,
     /// Name of the library of its project.
     pub library: String,
-    /// Words at the ends of the x axis and of the y axis.
-    pub axes: [[String; 2]; 2],
+    /// Words at both ends of each axis, the x axis first, then the y axis; one entry for each coordinate of the texture.
+    pub axes: Vec<[String; 2]>,
     /// Names of its pinned textures, by identifier.
     pub pinned: BTreeMap<String, String>,
     /// The pinned textures that were added to its project.
@@ -66,7 +70,7 @@ pub enum CopiedTextureError {
     Foreign,
     /// Another version of the format.
     #[error(
-        "the authored texture on the clipboard has version {found}, but this program reads version {VERSION}; copy it with this version of Shagreen"
+        "the authored texture on the clipboard has version {found}, but this program reads the versions {VERSION} and {VERSION_FURTHER_AXES}; copy it with this version of Shagreen"
     )]
     Version {
         /// Value of the `version` field.
@@ -100,7 +104,7 @@ struct CopiedV1 {
     shagreen: String,
     version: u32,
     library: String,
-    axes: [[String; 2]; 2],
+    axes: Vec<[String; 2]>,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pinned: BTreeMap<String, String>,
     texture: AuthoredV1,
@@ -126,15 +130,25 @@ pub fn write_copied_texture(copied: &CopiedTexture) -> String {
 fn written(copied: &CopiedTexture, textures: &[TextureEntry]) -> String {
     let wire = CopiedV1 {
         shagreen: KIND.to_owned(),
-        version: VERSION,
+        version: if copied.axes.len() == 2 { VERSION } else { VERSION_FURTHER_AXES },
         library: copied.library.clone(),
         axes: copied.axes.clone(),
         pinned: copied.pinned.clone(),
-        texture: authored(&copied.texture),
+        texture: authored(&on_axes(&copied.texture, copied.axes.len())),
         textures: textures.iter().map(texture_wire).collect(),
     };
     // JSON is UTF-8, so nothing is lost.
     String::from_utf8_lossy(&layout::to_bytes(&wire, OPEN_DEPTH)).into_owned()
+}
+
+/// The texture with one coordinate for each axis: it may have others if the library of its project has changed.
+fn on_axes(texture: &AuthoredTexture, n_axes: usize) -> AuthoredTexture {
+    let mut texture = texture.clone();
+    texture.at = texture.at.on(n_axes);
+    for point in texture.path.iter_mut().flat_map(|path| &mut path.points) {
+        *point = point.on(n_axes);
+    }
+    texture
 }
 
 /// Reads a copied texture; every value is checked.
@@ -158,7 +172,7 @@ pub fn read_copied_texture(text: &str) -> Result<CopiedTexture, CopiedTextureErr
     if mark.shagreen != KIND {
         return Err(CopiedTextureError::Foreign);
     }
-    if mark.version != VERSION {
+    if mark.version != VERSION && mark.version != VERSION_FURTHER_AXES {
         let found = mark.version.to_string().chars().take(20).collect();
         return Err(CopiedTextureError::Version { found });
     }
@@ -184,9 +198,14 @@ fn checked(wire: CopiedV1) -> Result<CopiedTexture, ProjectError> {
         text_limits::check("the name of a pinned texture", name, MAX_NAME)?;
     }
     let entry = |wire| texture_entry(wire).map_err(|source| ProjectError::Library { path: None, source });
+    let texture = authored_texture(wire.texture)?;
+    if wire.axes.len() != texture.at.n_axes() {
+        let (n, n_axes) = (texture.at.n_axes(), wire.axes.len());
+        return Err(ProjectError::AxisCount { name: texture.name, n, n_axes });
+    }
     Ok(CopiedTexture {
         textures: wire.textures.into_iter().map(entry).collect::<Result<_, _>>()?,
-        texture: authored_texture(wire.texture)?,
+        texture,
         library: wire.library,
         axes: wire.axes,
         pinned: wire.pinned,
@@ -213,13 +232,13 @@ mod tests {
                 color: 3,
                 notes: "line one\n\"line two\"".to_owned(),
                 tags: vec!["wood".to_owned()],
-                at: SpacePoint { rough_smooth: 100.0 / 3.0, hard_soft: 0.1 },
+                at: SpacePoint::plane(100.0 / 3.0, 0.1),
                 blend: BlendChoice { mode: Mode::Field, locked, ..BlendChoice::default() },
                 shape: Shape { grain: 1.3, softness: 0.5, ..Shape::default() },
                 ..AuthoredTexture::new(7, "Eiche, geölt")
             },
             library: "Starter library".to_owned(),
-            axes: [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned)),
+            axes: [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned)).to_vec(),
             pinned: BTreeMap::from([("oak".to_owned(), "Oak".to_owned())]),
             textures: Vec::new(),
         }
@@ -238,6 +257,26 @@ mod tests {
         assert!(text.starts_with("{\n \"shagreen\": \"authored texture\",\n \"version\": 1,"), "{text}");
         assert_eq!(read_copied_texture(&text).unwrap(), copied());
         assert_eq!(changed(|_| {}).unwrap(), copied(), "whatever the layout");
+    }
+
+    #[test]
+    fn textures_on_any_number_of_axes_are_read_again() {
+        let ends = |axis: usize| [format!("low {axis}"), format!("high {axis}")];
+        for n_axes in [1, 3, 6] {
+            let mut copied = copied();
+            copied.texture.at = copied.texture.at.on(n_axes).with(n_axes - 1, 12.5);
+            copied.axes = (0..n_axes).map(ends).collect();
+            let text = write_copied_texture(&copied);
+            assert!(text.contains("\"version\": 2"), "older programs say so: {text}");
+            assert_eq!(read_copied_texture(&text).unwrap(), copied);
+        }
+        let changed_library = CopiedTexture {
+            texture: AuthoredTexture { at: copied().texture.at.on(4), ..copied().texture },
+            ..copied()
+        };
+        assert_eq!(read_copied_texture(&write_copied_texture(&changed_library)).unwrap(), copied());
+        let fewer = changed(|value| value["axes"] = json!([["rough", "smooth"]])).unwrap_err().to_string();
+        assert!(fewer.contains("\"Eiche, geölt\" has 2 coordinates, but the number of axes is 1"), "{fewer}");
     }
 
     #[test]
@@ -278,7 +317,7 @@ mod tests {
         for (text, part) in [
             (half, "damaged"),
             (format!("{text}{}", " ".repeat(MAX_BYTES)), "bytes"),
-            (text.replace("\"version\": 1", "\"version\": 2"), "version 2"),
+            (text.replace("\"version\": 1", "\"version\": 3"), "version 3"),
             (text.replace("\"version\": 1", "\"more\": 1"), "version null"),
             (text.replace("\"library\"", "\"librarie\""), "librarie"),
         ] {

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 use shagreen_core::space::SpacePointError;
 use shagreen_core::texture::shape::ShapeError;
+use shagreen_core::words::counted;
 
 use crate::foreign_file::Found;
-use crate::library::LibraryError;
+use crate::library::{CoordinatesError, LibraryError};
 use crate::project::{FORMAT, VERSION_MAJOR, VERSION_MINOR};
 use crate::text_limits::TooLong;
 
@@ -139,8 +140,53 @@ pub enum ProjectError {
         /// Name of the authored texture.
         name: String,
         /// What is wrong.
+        source: CoordinatesError,
+    },
+    /// The position of a texture on the clipboard has another number of coordinates than its space has axes.
+    #[error(
+        "the position of \"{name}\" has {}, but the number of axes is {n_axes}; copy the texture again",
+        counted(*.n, "coordinate")
+    )]
+    AxisCount {
+        /// Name of the authored texture.
+        name: String,
+        /// Number of its coordinates.
+        n: usize,
+        /// Number of axes.
+        n_axes: usize,
+    },
+    /// A point of a drawn path is outside the space.
+    #[error(
+        "the position of point {number} of the path of \"{name}\" is invalid: {source}; correct or remove it"
+    )]
+    PathPoint {
+        /// Name of the authored texture.
+        name: String,
+        /// Number of the point, from one.
+        number: usize,
+        /// What is wrong.
         source: SpacePointError,
     },
+    /// A point of a drawn path has another number of coordinates than the position of its texture.
+    #[error(
+        "point {number} of the path of \"{name}\" has {}, but its position has {expected}; give both the same number",
+        counted(*.n, "coordinate")
+    )]
+    PathPointCount {
+        /// Name of the authored texture.
+        name: String,
+        /// Number of the point, from one.
+        number: usize,
+        /// Number of its coordinates.
+        n: usize,
+        /// Number of coordinates of the position.
+        expected: usize,
+    },
+    /// `axes` is not one to six different names.
+    #[error(
+        "`axes` must be one to six different names of axes; correct them, or remove `axes` to use the positions of the textures"
+    )]
+    Axes,
     /// A number is out of range.
     #[error("\"{name}\" has {field} {value}; {needs}")]
     Number {

@@ -14,9 +14,9 @@ use shagreen_core::texture::blend::Mode;
 
 use crate::built_in::BuiltIn;
 use crate::imported::Imported;
-use crate::library::read::{library_inside, picture, place, texture};
+use crate::library::read::{check_count, library_inside, picture, place, texture};
 use crate::library::v1::PictureV1;
-use crate::library::{Attributes, LibraryError, Unknown, attributes, read_library};
+use crate::library::{Attributes, LibraryError, USUAL_AXES, Unknown, attributes, read_library};
 use crate::own_json::{HeaderFault, minor_version};
 use crate::parser_words::plain;
 use crate::path_json;
@@ -25,10 +25,10 @@ use crate::placed_space::{PlacedSpace, PlacedTexture};
 use crate::project::v1::{
     AuthoredV1, BlendV1, DrawnPathV1, PlacedSpaceV1, ProjectLibraryV1, ProjectV1, UnitsV1,
 };
-use crate::project::write::{OUTSIDES, UNITS, WEIGHTS};
+use crate::project::write::{OUTSIDES, UNITS, WEIGHTS, WITH_FURTHER_AXES};
 use crate::project::{
     AuthoredTexture, BlendChoice, FORMAT, LibraryFile, N_COLORS, Project, ProjectError, ProjectLibrary,
-    VERSION_MAJOR, VERSION_MINOR, listed_ids, own, shape,
+    VERSION_MAJOR, VERSION_MINOR, axes, listed_ids, own, shape,
 };
 use crate::text_limits::{self, MAX_NAME, MAX_NOTES};
 
@@ -86,6 +86,8 @@ fn read_with(
     for name in wire.renamed.values() {
         text_limits::check("the name of a texture", name, MAX_NAME)?;
     }
+    let is_older = minor < WITH_FURTHER_AXES;
+    let axes = axes::read(wire.axes, is_older, || axes::own(&library, space.as_deref()))?;
     let mut authored: Vec<Arc<AuthoredTexture>> = wire
         .authored
         .into_iter()
@@ -110,7 +112,7 @@ fn read_with(
             renamed: wire.renamed,
             starred: wire.starred,
             space,
-            axes: wire.axes,
+            axes,
             authored,
             selected,
             solo: wire.solo,
@@ -249,16 +251,19 @@ fn library_file(
 }
 
 fn placed_space(wire: PlacedSpaceV1) -> Result<PlacedSpace, LibraryError> {
+    let axes = attributes::axes(wire.axes)?;
+    let n_axes = axes.as_ref().map_or(USUAL_AXES.len(), Vec::len);
     let mut textures = Vec::with_capacity(wire.textures.len());
     for texture in wire.textures {
         // Unknown fields of positions that were computed in the project are dropped.
         let mut unknown = Unknown::default();
         let place = place(&texture.id, texture.space, &mut unknown)?;
+        check_count(&texture.id, &place, n_axes)?;
         let of_wire = |wire| attributes::read(&texture.id, wire, &mut unknown);
         let attributes: Option<Attributes> = texture.attributes.map(of_wire).transpose()?;
         textures.push(PlacedTexture { id: texture.id, place, attributes });
     }
-    Ok(PlacedSpace { textures, axes: attributes::axes(wire.axes)?, report: wire.report })
+    Ok(PlacedSpace { textures, axes, report: wire.report })
 }
 
 fn check_keys(authored: &[Arc<AuthoredTexture>]) -> Result<(), ProjectError> {
@@ -277,8 +282,7 @@ fn check_keys(authored: &[Arc<AuthoredTexture>]) -> Result<(), ProjectError> {
 
 pub(super) fn authored_texture(wire: AuthoredV1) -> Result<AuthoredTexture, ProjectError> {
     let name = wire.name;
-    let at = SpacePoint::new(wire.rough_smooth, wire.hard_soft)
-        .map_err(|source| ProjectError::Place { name: name.clone(), source })?;
+    let at = wire.at.point().map_err(|source| ProjectError::Place { name: name.clone(), source })?;
     if wire.color >= N_COLORS {
         return Err(ProjectError::Number {
             name,
@@ -298,7 +302,7 @@ pub(super) fn authored_texture(wire: AuthoredV1) -> Result<AuthoredTexture, Proj
         at,
         blend: blend(&name, wire.blend)?,
         shape,
-        path: wire.path.map(|wire| drawn_path(&name, wire)).transpose()?,
+        path: wire.path.map(|wire| drawn_path(&name, at.n_axes(), wire)).transpose()?,
         picture: wire.picture.map(|wire| own_picture(&name, wire)).transpose()?,
         unknown,
         name,
@@ -321,7 +325,7 @@ fn of_word<T: Copy>(words: [(T, &str); 2], found: &str) -> Option<T> {
     words.into_iter().find(|(_, word)| *word == found).map(|(value, _)| value)
 }
 
-fn drawn_path(name: &str, wire: DrawnPathV1) -> Result<UserPath, ProjectError> {
+fn drawn_path(name: &str, n_axes: usize, wire: DrawnPathV1) -> Result<UserPath, ProjectError> {
     let word = |field, found: &str, expected| ProjectError::Word {
         name: name.to_owned(),
         field,
@@ -346,11 +350,20 @@ fn drawn_path(name: &str, wire: DrawnPathV1) -> Result<UserPath, ProjectError> {
             most: MAX_PATH_POINTS,
         });
     }
-    let point = |[rs, hs]: [f64; 2]| {
-        SpacePoint::new(rs, hs).map_err(|source| ProjectError::Place { name: name.to_owned(), source })
+    let point = |(index, coordinates): (usize, Vec<f64>)| {
+        let (name, number, n) = (name.to_owned(), index + 1, coordinates.len());
+        if n != n_axes {
+            return Err(ProjectError::PathPointCount { name, number, n, expected: n_axes });
+        }
+        let point = match coordinates[..] {
+            // Errors of a point on two axes say what the ends of the usual axes mean.
+            [first, second] => SpacePoint::new(first, second),
+            _ => SpacePoint::of(&coordinates),
+        };
+        point.map_err(|source| ProjectError::PathPoint { name, number, source })
     };
     Ok(UserPath {
-        points: wire.points.into_iter().map(point).collect::<Result<_, _>>()?,
+        points: wire.points.into_iter().enumerate().map(point).collect::<Result<_, _>>()?,
         along,
         length_m: wire.length_mm / 1e3,
         length_secs: wire.length_s,

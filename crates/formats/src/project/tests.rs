@@ -1,3 +1,5 @@
+mod further_axes;
+
 use std::collections::BTreeSet;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -23,7 +25,11 @@ use crate::starter::{starter_bytes, starter_library};
 const BY: &str = "shagreen test";
 
 fn at(rough_smooth: f64, hard_soft: f64) -> SpacePoint {
-    SpacePoint { rough_smooth, hard_soft }
+    SpacePoint::plane(rough_smooth, hard_soft)
+}
+
+fn named(names: &[&str]) -> Vec<String> {
+    names.iter().map(|name| (*name).to_owned()).collect()
 }
 
 fn nothing(_: &Path) -> io::Result<Vec<u8>> {
@@ -65,7 +71,7 @@ fn full() -> Project {
     };
     let space = PlacedSpace {
         textures: vec![placed("cork"), placed("felt")],
-        axes: Some(["warm-cold".to_owned(), "flat-bumpy".to_owned()]),
+        axes: Some(vec!["warm-cold".to_owned(), "flat-bumpy".to_owned()]),
         report: json!({"stress": [0.1, 0.05]}),
     };
     let mut project = Project::new(ProjectLibrary::BuiltIn(BuiltIn::Simulated), "New texture");
@@ -79,7 +85,7 @@ fn full() -> Project {
     project.notes = "für später".to_owned();
     (project.selected, project.solo) = (1, Some("cork".to_owned()));
     project.compared = Some([2, 1]);
-    (project.space, project.axes) = (Some(Arc::new(space)), Some(["a-b".to_owned(), "c-d".to_owned()]));
+    (project.space, project.axes) = (Some(Arc::new(space)), Some(named(&["a-b", "c-d"])));
     project
 }
 
@@ -125,12 +131,15 @@ fn every_version_opens() {
     let space = project.space.as_ref().unwrap();
     assert_eq!((space.textures[0].id.as_str(), space.textures[0].place.at), ("cork", at(40.0, 60.0)));
     assert_eq!(space.textures[0].place.source, LabelSource::SimulatedRaters);
+    // Its axes are attributes, not the axes of its positions with the same names.
+    assert_eq!(project.axes, Some(named(&["attribute:warm-cold", "attribute:flat-bumpy"])));
     assert_eq!(project.starred.len(), 2);
     assert_eq!(project.library, ProjectLibrary::BuiltIn(BuiltIn::Starter));
     assert_eq!(back(&project), project);
     let written: Value =
         serde_json::from_slice(&write_project(&project, Path::new("/somewhere"), BY)).unwrap();
     assert_eq!(written["of_a_later_version"], json!({ "kept": [1, 2, 3] }));
+    assert_eq!((&written["version"], &written["axes"]), (&json!("1.0"), &json!(["warm-cold", "flat-bumpy"])));
 }
 
 /// A shape has only the values that are not neutral, and a project without shapes has the version that older programs
@@ -316,7 +325,7 @@ type Fault = (&'static str, fn(&mut Value));
 
 #[test]
 fn each_fault_is_named() {
-    let faults: [Fault; 21] = [
+    let faults: [Fault; 28] = [
         ("not a project", |wire| wire["format"] = json!("shagreen-library")),
         ("version 2.0", |wire| wire["version"] = json!("2.0")),
         ("version \"one\"", |wire| wire["version"] = json!("one")),
@@ -327,6 +336,26 @@ fn each_fault_is_named() {
         ("cannot be read", |wire| wire["library"] = json!({"file": "none.json"})),
         ("the position of", |wire| wire["authored"][1]["rough_smooth"] = json!(101)),
         ("the position of", |wire| wire["authored"][1]["path"]["points"][0] = json!([0, -1])),
+        ("the position of \"Oak \"copy\"\" is invalid: it has `further`", |wire| {
+            wire["authored"][1]["further"] = json!([5]);
+            drop(wire["authored"][1].as_object_mut().unwrap().remove("hard_soft"));
+        }),
+        ("point 2 of the path of \"Oak \"copy\"\" has 3 coordinates, but its position has 2", |wire| {
+            wire["authored"][1]["path"]["points"][1] = json!([1, 2, 3]);
+        }),
+        ("point 1 of the path of \"Oak \"copy\"\" has 2 coordinates, but its position has 3", |wire| {
+            wire["authored"][1]["further"] = json!([5]);
+        }),
+        ("position of texture \"felt\" has 1 coordinate, but the number of axes is 2", |wire| {
+            drop(wire["space"]["textures"][1]["space"].as_object_mut().unwrap().remove("hard_soft"));
+        }),
+        ("one to six different names", |wire| wire["axes"] = json!(["a", "b", "c"])),
+        ("one to six different names", |wire| {
+            (wire["version"], wire["axes"]) = (json!("1.3"), json!(["a-b", "attribute:A-B"]));
+        }),
+        ("one to six different names", |wire| {
+            (wire["version"], wire["axes"]) = (json!("1.3"), json!(["a", "b", "c", "d", "e", "f", "g"]));
+        }),
         ("blend.mode \"x\"", |wire| wire["authored"][1]["blend"]["mode"] = json!("x")),
         ("blend.weights \"x\"", |wire| wire["authored"][1]["blend"]["weights"] = json!("x")),
         ("blend.outside \"x\"", |wire| wire["authored"][1]["blend"]["outside"] = json!("x")),
@@ -363,7 +392,7 @@ fn what_a_newer_program_wrote_is_kept() {
         wire["authored"][1]["mood"] = json!("calm");
     })
     .unwrap();
-    assert!(warnings[0].contains("newer than 1.2"), "{warnings:?}");
+    assert!(warnings[0].contains("newer than 1.3"), "{warnings:?}");
     let wire: Value = serde_json::from_slice(&write_project(&project, Path::new("/"), BY)).unwrap();
     assert_eq!((&wire["moods"][0], &wire["authored"][1]["mood"]), (&json!("calm"), &json!("calm")));
 }
@@ -391,4 +420,14 @@ fn what_is_heard_is_what_the_mode_can_do() {
     assert!(field.is_locked("cork") && !field.is_locked("felt"));
     assert!(!BlendChoice { mode: Mode::Paper, ..field.clone() }.is_locked("cork"));
     assert!(field.blending(|_| None).locked.is_empty());
+}
+
+#[test]
+fn the_mode_is_field_without_triangles_and_the_choice_stays() {
+    let paper = BlendChoice { mode: Mode::Paper, ..full().authored[1].blend.clone() };
+    for n_axes in [1, 2] {
+        assert_eq!(*paper.in_space(n_axes), paper);
+    }
+    let field = BlendChoice { mode: Mode::Field, ..paper.clone() };
+    assert_eq!((&*paper.in_space(3), &*field.in_space(6)), (&field, &field));
 }

@@ -1,10 +1,11 @@
-//! File format of a project, version 1.2.
+//! File format of a project, versions 1.0 to 1.3.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
+use crate::library::CoordinatesV1;
 use crate::library::v1::{AttributesV1, LibraryV1, PictureV1, SpaceV1, TextureV1};
 
 #[derive(Serialize, Deserialize)]
@@ -17,7 +18,7 @@ pub(super) struct ProjectV1 {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub(super) notes: String,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) axes: Option<[String; 2]>,
+    pub(super) axes: Option<Vec<String>>,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(super) renamed: BTreeMap<String, String>,
     #[serde(default, skip_serializing_if = "BTreeSet::is_empty")]
@@ -72,8 +73,8 @@ pub(super) struct AuthoredV1 {
     pub(super) notes: String,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) tags: Vec<String>,
-    pub(super) rough_smooth: f64,
-    pub(super) hard_soft: f64,
+    #[serde(flatten)]
+    pub(super) at: CoordinatesV1,
     pub(super) blend: BlendV1,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) shape: Option<ShapeV1>,
@@ -121,7 +122,7 @@ pub(super) struct DrawnPathV1 {
     pub(super) at_end: String,
     pub(super) length_mm: f64,
     pub(super) length_s: f64,
-    pub(super) points: Vec<[f64; 2]>,
+    pub(super) points: Vec<Vec<f64>>,
 }
 
 #[derive(Serialize, Deserialize)]

@@ -5,19 +5,21 @@ use std::path::Path;
 use serde_json::Value;
 
 use serde_json::Map;
+use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Outside, Weights};
 
 use crate::layout;
 use crate::library::numbers::{CONVERSION_DIGITS, digits};
 use crate::library::write::{picture, place, wire as library_wire};
-use crate::library::{Unknown, attributes};
+use crate::library::{CoordinatesV1, USUAL_AXES, Unknown, attributes};
 use crate::path_json;
 use crate::placed_space::{PlacedSpace, PlacedTexture};
 use crate::project::v1::{
     AuthoredV1, BlendV1, DrawnPathV1, PlacedSpaceV1, PlacedTextureV1, ProjectLibraryV1, ProjectV1, UnitsV1,
 };
 use crate::project::{
-    AuthoredTexture, BlendChoice, FORMAT, LibraryFile, Project, ProjectLibrary, VERSION_MAJOR, own, shape,
+    AuthoredTexture, BlendChoice, FORMAT, LibraryFile, Project, ProjectLibrary, VERSION_MAJOR, axes, own,
+    shape,
 };
 
 /// Quantities of the format and their units, in the order of [`UnitsV1`].
@@ -33,6 +35,8 @@ pub(super) const OUTSIDES: [(Outside, &str); 2] =
 const WITH_SHAPES: u32 = 1;
 /// The minor version that introduced added textures that only some authored textures use.
 const WITH_OWN: u32 = 2;
+/// The minor version that introduced spaces with another number of axes than two, and axes that are no attributes.
+pub(super) const WITH_FURTHER_AXES: u32 = 3;
 
 /// Nesting depth up to which values get their own lines. Each anchor of an embedded library (in project, library,
 /// library, textures, texture, anchors) fills one line.
@@ -43,13 +47,14 @@ const OPEN_DEPTH: usize = 6;
 /// exactly.
 pub fn write_project(project: &Project, folder: &Path, created_by: &str) -> Vec<u8> {
     let [length, time] = UNITS.map(|(_, unit)| unit.to_owned());
+    let minor = minor_version(project);
     let wire = ProjectV1 {
         format: FORMAT.to_owned(),
-        version: format!("{VERSION_MAJOR}.{}", minor_version(project)),
+        version: format!("{VERSION_MAJOR}.{minor}"),
         units: UnitsV1 { length, time, unknown: Map::new() },
         created_by: created_by.to_owned(),
         notes: project.notes.clone(),
-        axes: project.axes.clone(),
+        axes: if minor < WITH_FURTHER_AXES { axes::write_older(project) } else { project.axes.clone() },
         renamed: project.renamed.clone(),
         starred: project.starred.clone(),
         selected: project.selected,
@@ -68,11 +73,23 @@ pub fn write_project(project: &Project, folder: &Path, created_by: &str) -> Vec<
 /// Returns the lowest minor version that has all features of a project, so that older programs can read as much as
 /// possible.
 fn minor_version(project: &Project) -> u32 {
+    let textures = || project.authored.iter().chain(&project.snapshots);
+    let is_plane = |at: &SpacePoint| at.n_axes() == USUAL_AXES.len();
+    let has_two_axes = |texture: &AuthoredTexture| {
+        is_plane(&texture.at) && texture.path.iter().flat_map(|path| &path.points).all(is_plane)
+    };
+    let placed = project.space.iter().flat_map(|space| &space.textures).map(|texture| &texture.place);
+    let mut places = placed.chain(project.joined.iter().filter_map(|entry| entry.place.as_ref()));
+    if axes::is_needed(project)
+        || !textures().all(|texture| has_two_axes(texture))
+        || !places.all(|place| is_plane(&place.at))
+    {
+        return WITH_FURTHER_AXES;
+    }
     if own::is_needed(project) {
         return WITH_OWN;
     }
-    let mut textures = project.authored.iter().chain(&project.snapshots);
-    if textures.any(|texture| shape::is_needed(texture)) { WITH_SHAPES } else { 0 }
+    if textures().any(|texture| shape::is_needed(texture)) { WITH_SHAPES } else { 0 }
 }
 
 fn library(library: &ProjectLibrary, folder: &Path) -> ProjectLibraryV1 {
@@ -114,7 +131,7 @@ fn placed_space(space: &PlacedSpace) -> PlacedSpaceV1 {
         attributes: texture.attributes.as_ref().map(|known| attributes::write(known, &Unknown::default())),
     };
     PlacedSpaceV1 {
-        axes: space.axes.clone().map(Vec::from),
+        axes: space.axes.clone(),
         textures: space.textures.iter().map(texture).collect(),
         report: space.report.clone(),
     }
@@ -129,8 +146,7 @@ pub(super) fn authored(texture: &AuthoredTexture) -> AuthoredV1 {
         color: texture.color,
         notes: texture.notes.clone(),
         tags: texture.tags.clone(),
-        rough_smooth: texture.at.rough_smooth,
-        hard_soft: texture.at.hard_soft,
+        at: CoordinatesV1::of(texture.at, |coordinate| coordinate),
         blend: blend(&texture.blend),
         shape,
         unknown,
@@ -139,7 +155,7 @@ pub(super) fn authored(texture: &AuthoredTexture) -> AuthoredV1 {
             at_end: path.at_end.id().to_owned(),
             length_mm: digits(1e3 * path.length_m, CONVERSION_DIGITS),
             length_s: path.length_secs,
-            points: path.points.iter().map(|point| [point.rough_smooth, point.hard_soft]).collect(),
+            points: path.points.iter().map(|point| point.coordinates().to_vec()).collect(),
         }),
         picture: texture.picture.as_deref().map(picture),
     }

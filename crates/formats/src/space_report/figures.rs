@@ -236,7 +236,7 @@ fn predicted(build: &SpaceBuild, axis: &Axis) -> Figure {
 fn authoring(build: &SpaceBuild) -> Figure {
     let at = |i: usize| {
         let place = build.positions[i];
-        Point::new(place.rough_smooth, place.hard_soft)
+        Point::new(place.x(), place.y())
     };
     let edges = build.space.triangles().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
     let mut edges: Vec<[usize; 2]> = edges.map(|[a, b]| [a.min(b), a.max(b)]).collect();

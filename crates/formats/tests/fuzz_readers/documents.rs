@@ -30,7 +30,8 @@ pub(crate) fn project_seeds() -> Vec<Vec<u8>> {
         project.renamed.insert("cork".to_owned(), "Cork, sanded".to_owned());
         write_project(&project, Path::new("/folder"), "fuzz")
     };
-    GALLERY.iter().take(3).map(bytes).collect()
+    let further = include_bytes!("../../../../vectors/project/1.3.shagreen").to_vec();
+    GALLERY.iter().take(3).map(bytes).chain([further]).collect()
 }
 
 pub(crate) fn read_a_project(bytes: &[u8]) -> Result<(), String> {
@@ -53,7 +54,7 @@ pub(crate) fn copied_texture_seeds() -> Vec<Vec<u8>> {
     let copied = |texture: &std::sync::Arc<AuthoredTexture>| CopiedTexture {
         texture: AuthoredTexture::clone(texture),
         library: "Starter library".to_owned(),
-        axes: [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned)),
+        axes: [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned)).to_vec(),
         pinned: [("cork".to_owned(), "Cork".to_owned())].into(),
         textures: vec![starter_library().unwrap().textures.swap_remove(0)],
     };

@@ -27,7 +27,9 @@ pub(crate) fn places_seeds() -> Vec<Vec<u8>> {
     let plain = "id,rs,hs,flat-bumpy,source\ncork,40.5,71,33,human\nfelt,90,95,,\n";
     let by_poles = "texture;Rough-Smooth;Hard-Soft\ncork;40,5;71\n";
     let stray = "sep=|\nid|rs|hs|color|flat-bumpy\ncork|1|7|red|4\n";
-    [plain, by_poles, stray].map(|text| text.as_bytes().to_vec()).to_vec()
+    let further =
+        "id,x:warm-cold,y:hard-soft,z:a-b,u:c,source\ncork,40.5,71,33,2,human\nfelt,90,95,1,5,human\n";
+    [plain, by_poles, stray, further].map(|text| text.as_bytes().to_vec()).to_vec()
 }
 
 pub(crate) fn recordings_seeds() -> Vec<Vec<u8>> {
@@ -89,9 +91,8 @@ pub(crate) fn read_some_places(bytes: &[u8]) -> Result<(), String> {
     let is_inside = |value: f64| (0.0..=100.0).contains(&value);
     let outside = placements.find(|p| {
         let at = p.place.at;
-        !(is_inside(at.rough_smooth)
-            && is_inside(at.hard_soft)
-            && p.attributes.values.iter().all(|a| is_inside(a.value)))
+        let is_in_space = at.coordinates().iter().all(|coordinate| is_inside(*coordinate));
+        !(is_in_space && p.attributes.values.iter().all(|a| is_inside(a.value)))
     });
     outside.map_or(Ok(()), |placement| Err(format!("{placement:?}")))
 }

@@ -190,6 +190,7 @@ fn library_seeds() -> Vec<Vec<u8>> {
         include_bytes!("../golden/library-1.0.json").to_vec(),
         include_bytes!("../golden/library-1.1.json").to_vec(),
         include_bytes!("../golden/library-1.7.json").to_vec(),
+        include_bytes!("../golden/library-1.8.json").to_vec(),
     ]
 }
 

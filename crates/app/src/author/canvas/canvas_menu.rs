@@ -7,6 +7,7 @@ use super::{ShownMap, move_to};
 use crate::author::context_menu::{context_menu, listed_entry, menu_entry};
 use crate::author::new_texture::fresh;
 use crate::command::Command;
+use crate::command::axes::AxesCommand;
 use crate::command::clipboard::ClipboardCommand;
 use crate::look::axes::Axes;
 use crate::panel::Panel;
@@ -25,13 +26,15 @@ pub(super) fn canvas_menu(
     let opened_at = Popup::position_of_id(&background.ctx, Popup::default_response_id(background));
     let at = axes.space_from_ui(opened_at.unwrap_or(axes.rect.center()));
     context_menu(background, |ui| {
-        let added = Command::Edit(Edit::Author(fresh(panel, at)));
+        let added = Command::Edit(Edit::Author(Box::new(fresh(panel, at))));
         commands.extend(menu_entry(ui, authored::ADD_HERE, authored::ADD_HERE_HELP, added));
-        commands.extend(menu_entry(ui, authored::MOVE_HERE, authored::MOVE_HERE_HELP, move_to(at)));
+        let moved = move_to(panel.on_slice(at));
+        commands.extend(menu_entry(ui, authored::MOVE_HERE, authored::MOVE_HERE_HELP, moved));
         let paste = Command::Clipboard(ClipboardCommand::Paste);
         commands.extend(menu_entry(ui, clipboard::PASTE, clipboard::PASTE_HELP, paste));
         ui.separator();
         commands.extend(listed_entry(ui, Command::TogglePathTool));
+        commands.extend(listed_entry(ui, Command::Axes(AxesCommand::Open)));
         let shown = map.map(|map| map.quantity);
         ui.menu_button(map_words::MAP, |ui| {
             for each in std::iter::once(None).chain(Quantity::ALL.map(Some)) {

@@ -31,7 +31,7 @@ pub struct ShownMap {
     pub picture: Option<TextureId>,
     /// Lowest and highest value, in the unit of the quantity.
     pub range: Option<(f64, f64)>,
-    /// Outline of the region with values; `None` if the whole space has values.
+    /// Outline of the region with values; `None` if the whole space has values, or those without one are transparent.
     pub outline: Option<Arc<[SpacePoint]>>,
 }
 
@@ -109,6 +109,8 @@ fn add_polygon(mesh: &mut Mesh, corners: &[Pos2], picture: Rect, soft: f32, colo
 pub(super) fn scale_ui(ui: &mut Ui, map: &ShownMap, t: &Tokens) {
     let (low, high) = match map.range {
         Some((low, high)) => (strings::value(map.quantity, low), strings::value(map.quantity, high)),
+        // A slice may lie outside the convex hull.
+        None if map.picture.is_some() => (strings::NO_VALUES.to_owned(), String::new()),
         None => (strings::WAITING.to_owned(), String::new()),
     };
     let font = FontId::proportional(11.5);

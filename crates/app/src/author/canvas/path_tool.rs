@@ -54,16 +54,16 @@ impl PathTool {
     ) -> Option<Command> {
         if background.drag_started() {
             let begin = ui.input(|i| i.pointer.press_origin());
-            self.line = begin.map(|pos| axes.space_from_ui(pos)).into_iter().collect();
+            self.line = begin.map(|pos| panel.on_slice(axes.space_from_ui(pos))).into_iter().collect();
         }
         // A click beside an open menu only closes it.
         if background.clicked()
             && !had_open_menu(ui.ctx())
             && let Some(pos) = background.interact_pointer_pos()
         {
-            return added(panel, axes.space_from_ui(pos));
+            return added(panel, panel.on_slice(axes.space_from_ui(pos)));
         }
-        let at = axes.space_from_ui(dragged_to(ui, background)?);
+        let at = panel.on_slice(axes.space_from_ui(dragged_to(ui, background)?));
         if self.line.last().is_none_or(|last| last.distance(at) >= LEAST_STEP) {
             self.line.push(at);
         }
@@ -144,7 +144,7 @@ pub(super) fn path_points(
         }
         let mut changed = path.clone();
         if let Some(to) = dragged_to(ui, &response) {
-            changed.points[i] = axes.space_from_ui(to);
+            changed.points[i] = panel.session.fitted(*point).on_canvas_at(axes.space_from_ui(to));
             commands.push(change(PathChange::MovePoint, Some(changed)));
         } else {
             let is_deleted = response.has_focus()
@@ -212,8 +212,8 @@ pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &UserPath) 
         }
     });
     shown.response.accessible_name(strings::AT_END).on_hover_text(strings::AT_END_HELP);
-    let can_keep =
-        can_play && panel.project.texture().blend.mode.makes_a_model() && !panel.session.is_preparing();
+    let mode = panel.session.blend_in_space(&panel.project.texture().blend).mode;
+    let can_keep = can_play && mode.makes_a_model() && !panel.session.is_preparing();
     let keep = ui.add_enabled(can_keep, Button::new(strings::KEEP));
     if keep.on_hover_text(strings::KEEP_HELP).on_disabled_hover_text(strings::CANNOT_KEEP).clicked() {
         commands.push(Command::KeepPath);

@@ -118,7 +118,7 @@ fn other_point_ui(
         ui.painter().circle_filled(pos, radius, t.authored[usize::from(texture.color)]);
         ui.painter().circle_filled(pos, 2.5, t.background);
     }
-    let mut help = format!("{} {}", texture.name, texture.at);
+    let mut help = point_help(panel, texture);
     if let Some(own) = own_help(panel, texture) {
         help = format!("{help}\n{own}");
     }
@@ -143,7 +143,7 @@ fn point_ui(
 ) -> Vec<Command> {
     let mut commands = Vec::new();
     let texture = panel.project.texture();
-    let point = texture.at;
+    let point = panel.session.fitted(texture.at);
     let id = point_id(texture.key);
     let response = ui.interact(Rect::from_center_size(pos, vec2(28.0, 28.0)), id, point_sense(tool));
     response.widget_info(|| WidgetInfo {
@@ -157,7 +157,7 @@ fn point_ui(
     let offset = drag_offset(ui, &response, pos - axes.ui_from_space(point));
     if let Some(pointer) = dragged_to(ui, &response) {
         learn(ui.ctx(), Hint::DragPoint);
-        commands.push(move_to(axes.space_from_ui(pointer - offset)));
+        commands.push(move_to(panel.on_slice(axes.space_from_ui(pointer - offset))));
     }
     commands.extend(authored_menu(&response, panel, texture));
     if let Some(to) = nudged(ui, id, point) {
@@ -174,13 +174,23 @@ fn point_ui(
     }
     // The point follows the pointer, so that its tooltip would stay open while it is dragged.
     if may_appear(ui.ctx()) {
-        let mut help = format!("{} {point}", texture.name);
+        let mut help = point_help(panel, texture);
         if !is_learned(ui.ctx(), Hint::DragPoint) {
             help = format!("{help}\n{}", strings::POINT_HELP);
         }
         response.on_hover_text(help);
     }
     commands
+}
+
+/// Name and position of an authored texture. With more axes than the canvas shows, each coordinate is named.
+fn point_help(panel: &Panel<'_>, texture: &AuthoredTexture) -> String {
+    let at = panel.session.fitted(texture.at);
+    if panel.session.is_sliced() {
+        format!("{}\n{}", texture.name, strings::place_in_words(at, panel.session.poles()))
+    } else {
+        format!("{} {at}", texture.name)
+    }
 }
 
 /// Offset of a point from its position when its drag began, in points; `now` is the present one. A point that is drawn beside
@@ -225,7 +235,7 @@ fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored,
 
 /// Outside the convex hull: marks the nearest point of the hull that plays instead, or the distance of extrapolation.
 fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
-    let wanted = panel.session.path_point().unwrap_or(panel.inspected().at);
+    let wanted = panel.session.fitted(panel.session.path_point().unwrap_or(panel.inspected().at));
     let pos = axes.ui_from_space(wanted);
     let on = axes.ui_from_space(authored.location.at);
     let painter = ui.painter();
@@ -277,8 +287,5 @@ fn nudged(ui: &Ui, id: egui::Id, from: SpacePoint) -> Option<SpacePoint> {
             step * (count(Key::ArrowUp) - count(Key::ArrowDown)),
         )
     });
-    (dx != 0.0 || dy != 0.0).then(|| SpacePoint {
-        rough_smooth: (from.rough_smooth + dx).clamp(0.0, 100.0),
-        hard_soft: (from.hard_soft + dy).clamp(0.0, 100.0),
-    })
+    (dx != 0.0 || dy != 0.0).then(|| from.with(0, from.x() + dx).with(1, from.y() + dy))
 }

@@ -7,6 +7,7 @@ use shagreen_core::space::SpacePoint;
 use super::path_tool::{PathTool, added};
 use super::points_ui::point_areas;
 use super::site_labels::{Around, site_labels};
+use super::slice::{Slice, is_named, opacity, size};
 use super::{SITE_RADIUS, site_radius};
 use crate::author::context_menu::context_menu;
 use crate::author::exact::clicked;
@@ -36,8 +37,8 @@ pub(super) struct DrawnSites {
     pub(super) covered: Vec<Rect>,
 }
 
-/// Draws the textures; a click plays one alone. Texture names avoid the axis labels in `words` and the authored points that
-/// are not selected.
+/// Draws the textures; a click plays one alone. Far from the slice that the canvas shows, they are small and faint. Texture names
+/// avoid the axis labels in `words` and the authored points that are not selected.
 pub(super) fn sites_ui(
     ui: &mut Ui,
     axes: Axes,
@@ -52,17 +53,17 @@ pub(super) fn sites_ui(
     let left_out = panel.session.left_out(&panel.inspected().blend);
     let with_pictures = sites.len() <= MAX_PICTURES;
     let radius = if with_pictures { site_radius(axes) } else { 3.0 };
-    // Contributing textures are drawn last, on top of the others.
     let rank = |texture: usize| panel.session.parent_rank(texture);
-    let mut order: Vec<&(usize, SpacePoint)> = sites.iter().collect();
-    order.sort_by_key(|(texture, _)| rank(*texture).is_some());
+    let slice = Slice::of(panel);
+    let nearness = |at: &SpacePoint| slice.nearness(*at);
     let mut pointed = None;
     let has_open_menu = Popup::is_any_open(ui.ctx());
-    for (texture, at) in order {
+    for (texture, at) in &drawing_order(&sites, rank, nearness) {
         let pos = axes.ui_from_space(*at);
         let entry = &panel.session.textures()[*texture];
         let is_left_out = left_out.contains(texture);
-        let radius = if is_left_out { LEFT_OUT * radius } else { radius };
+        let look = Look::of(if is_left_out { LEFT_OUT * radius } else { radius }, nearness(at));
+        let radius = look.radius;
         let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
         let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::play_texture(&entry.name)));
@@ -70,9 +71,9 @@ pub(super) fn sites_ui(
             commands.extend(if tool.is_on { added(panel, *at) } else { Some(Command::Edit(edit)) });
         }
         if is_left_out {
-            left_out_site(ui, pos, radius, &response, t);
+            left_out_site(ui, pos, look, &response, t);
         } else {
-            site(ui, panel, *texture, pos, radius, &response, t);
+            site(ui, panel, *texture, pos, look, &response, t);
         }
         if response.hovered() {
             under_pointer = Some(*texture);
@@ -88,8 +89,8 @@ pub(super) fn sites_ui(
     }
     let named: Vec<(usize, Pos2)> = sites
         .iter()
-        .filter(|(texture, _)| {
-            let is_shown = with_pictures && !left_out.contains(texture);
+        .filter(|(texture, at)| {
+            let is_shown = with_pictures && !left_out.contains(texture) && is_named(nearness(at));
             is_shown || rank(*texture).is_some() || pointed == Some(*texture)
         })
         .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
@@ -102,10 +103,44 @@ pub(super) fn sites_ui(
     let mut covered = site_labels(ui, panel, &named, radius, &around, pointed, t);
     covered.extend(words);
     let disc = |(_, at): &(usize, SpacePoint)| {
-        Rect::from_center_size(axes.ui_from_space(*at), vec2(2.0 * radius, 2.0 * radius))
+        let side = 2.0 * Look::of(radius, nearness(at)).radius;
+        Rect::from_center_size(axes.ui_from_space(*at), vec2(side, side))
     };
     covered.extend(sites.iter().map(disc));
     DrawnSites { commands, pointed: under_pointer, covered }
+}
+
+/// Textures in the order in which they are drawn: contributing ones last, on top of the others, and otherwise those that are far
+/// from the slice first.
+fn drawing_order(
+    sites: &[(usize, SpacePoint)],
+    rank: impl Fn(usize) -> Option<usize>,
+    nearness: impl Fn(&SpacePoint) -> f32,
+) -> Vec<(usize, SpacePoint)> {
+    let contributes = |texture: usize| rank(texture).is_some();
+    let mut sites = sites.to_vec();
+    sites.sort_by(|(a, at_a), (b, at_b)| {
+        let near = || nearness(at_a).total_cmp(&nearness(at_b));
+        contributes(*a).cmp(&contributes(*b)).then_with(near)
+    });
+    sites
+}
+
+/// Size and opacity of a texture on the canvas.
+#[derive(Clone, Copy)]
+struct Look {
+    radius: f32,
+    opacity: f32,
+    /// Whether it is large enough on the slice to show its picture.
+    has_picture: bool,
+}
+
+impl Look {
+    /// Look of a texture with this radius on the slice and this nearness to it.
+    fn of(radius: f32, nearness: f32) -> Self {
+        let has_picture = radius >= SITE_RADIUS;
+        Self { radius: size(nearness) * radius, opacity: opacity(nearness), has_picture }
+    }
 }
 
 /// Draws the tooltip of a texture: its picture, and the text below it.
@@ -123,8 +158,8 @@ fn site_help(panel: &Panel<'_>, texture: usize, at: SpacePoint) -> String {
     if let Some(only_in) = only_in(panel, texture) {
         help = format!("{help}\n{only_in}");
     }
-    let blend = &panel.inspected().blend;
-    if !blend.can_lock() || panel.session.left_out(blend).contains(&texture) {
+    let blend = panel.session.blend_in_space(&panel.inspected().blend);
+    if !blend.can_lock() || panel.session.left_out(&blend).contains(&texture) {
         return format!("{help}\n{}", textures::CLICK_HELP);
     }
     let is_locked = blend.is_locked(&panel.session.textures()[texture].id);
@@ -142,35 +177,37 @@ pub(super) fn picture_disc(panel: &Panel<'_>, texture: usize, pos: Pos2, radius:
 }
 
 /// Draws a texture that takes no part in the authored texture.
-fn left_out_site(ui: &Ui, pos: Pos2, radius: f32, response: &Response, t: &Tokens) {
+fn left_out_site(ui: &Ui, pos: Pos2, look: Look, response: &Response, t: &Tokens) {
     let is_pointed = response.hovered() || response.has_focus();
-    let color = if is_pointed { t.text } else { t.text_weak };
-    ui.painter().circle_stroke(pos, radius, Stroke::new(1.5, color));
+    let color = if is_pointed { t.text } else { t.text_weak.gamma_multiply(look.opacity) };
+    ui.painter().circle_stroke(pos, look.radius, Stroke::new(1.5, color));
 }
 
-fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, radius: f32, response: &Response, t: &Tokens) {
+fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, look: Look, response: &Response, t: &Tokens) {
     let painter = ui.painter();
     let rank = panel.session.parent_rank(texture);
-    let has_picture = radius >= SITE_RADIUS;
+    let Look { radius, opacity, has_picture } = look;
     let disc = if has_picture { picture_disc(panel, texture, pos, radius) } else { None };
     match disc {
-        Some(disc) => {
+        Some(mut disc) => {
+            disc.fill = disc.fill.gamma_multiply(opacity);
             painter.add(disc);
         }
         // A dot is one textured disc. Rings around a thousand dots would make up most of all drawn triangles.
         None => {
-            painter.circle_filled(pos, radius, t.text_weak);
+            painter.circle_filled(pos, radius, t.text_weak.gamma_multiply(opacity));
         }
     }
     let ring = match rank {
         Some(rank) => Some(Stroke::new(3.0, t.parents[rank.min(2)])),
         None if response.hovered() || response.has_focus() => Some(Stroke::new(2.0, t.text)),
-        None => has_picture.then(|| Stroke::new(1.0, t.text_weak.gamma_multiply(0.8))),
+        None => has_picture.then(|| Stroke::new(1.0, t.text_weak.gamma_multiply(0.8 * opacity))),
     };
     if let Some(ring) = ring {
         painter.circle_stroke(pos, radius, ring);
     }
-    if panel.inspected().blend.is_locked(&panel.session.textures()[texture].id) {
+    let blend = panel.session.blend_in_space(&panel.inspected().blend);
+    if blend.is_locked(&panel.session.textures()[texture].id) {
         let corner = pos + Vec2::angled(-std::f32::consts::FRAC_PI_4) * (radius + 2.0);
         painter.circle_filled(corner, 8.0, t.background);
         lock_mark(painter, corner, true, t.text);

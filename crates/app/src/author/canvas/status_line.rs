@@ -27,13 +27,14 @@ const SIZE: f32 = 12.5;
 const NEAR_AN_EDGE: f64 = 0.05;
 
 /// Draws the strip at the lower edge of the canvas `outer`, between the words of the x axis, which are the first two of
-/// `axis_words`. With `asks_for_path`, it says how a path is drawn. Returns the requested command.
+/// `axis_words`. With `asks_for_path`, it says how a path is drawn; with `is_narrow` and nothing else to say, it has the legend of
+/// a slice. Returns the requested command.
 pub(super) fn foot_ui(
     ui: &mut Ui,
     outer: Rect,
     axis_words: &[Rect],
     panel: &Panel<'_>,
-    asks_for_path: bool,
+    [asks_for_path, is_narrow]: [bool; 2],
     t: &Tokens,
 ) -> Option<Command> {
     let [low, high, ..] = axis_words[..] else { return None };
@@ -51,7 +52,8 @@ pub(super) fn foot_ui(
         return solo_ui(ui, row, panel, texture, t);
     }
     let asked = asks_for_path.then(|| (strings::path::DRAW_ONE.to_owned(), t.accent));
-    let (text, color) = asked.or_else(|| message(panel, is_path, t))?;
+    let (text, color) =
+        asked.or_else(|| message(panel, is_path, t)).or_else(|| legend(panel, is_narrow, t))?;
     let mut job = egui::text::LayoutJob::simple(text, FontId::proportional(SIZE), color, row.width());
     job.halign = Align::Center;
     let galley = ui.painter().layout_job(job);
@@ -88,6 +90,12 @@ fn solo_ui(ui: &mut Ui, row: Rect, panel: &Panel<'_>, texture: usize, t: &Tokens
     }
     strip.add(Label::new(RichText::new(text).size(SIZE).color(t.accent)).truncate().selectable(false));
     asked.map(Command::Edit)
+}
+
+/// Legend of a slice, if the canvas is too narrow for it elsewhere.
+fn legend(panel: &Panel<'_>, is_narrow: bool, t: &Tokens) -> Option<(String, Color32)> {
+    let is_shown = is_narrow && panel.session.is_sliced();
+    is_shown.then(|| (strings::axes::slice(panel.session.n_axes()), t.text_weak))
 }
 
 fn message(panel: &Panel<'_>, is_path: bool, t: &Tokens) -> Option<(String, Color32)> {

@@ -66,7 +66,7 @@ mod tests {
 
     #[test]
     fn a_step_nearer_and_one_farther_is_none() {
-        let middle = SpacePoint { rough_smooth: 50.0, hard_soft: 50.0 };
+        let middle = SpacePoint::plane(50.0, 50.0);
         let there = View::default().zoomed(STEP, middle).zoomed(1.0 / STEP, middle);
         assert!((there.zoom() - 1.0).abs() < 1e-12);
     }

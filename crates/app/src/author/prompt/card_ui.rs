@@ -11,7 +11,7 @@ use crate::command::prompt::PromptCommand;
 use crate::look::icons::close_button;
 use crate::look::theme::{GAP, RADIUS, tokens};
 use crate::panel::Panel;
-use crate::strings::{self, prompt as words};
+use crate::strings::{self, axes, prompt as words};
 
 /// Height of the picture and its margin, in points: the least height of the card.
 const HEIGHT: f32 = 58.0;
@@ -65,7 +65,7 @@ pub(crate) fn card_ui(
     let t = tokens(ui.ctx());
     let height = place.height.unwrap_or(HEIGHT);
     let width = (map.width() - 2.0 * MARGIN).min(WIDTH);
-    let is_above = guess.at().hard_soft < 50.0;
+    let is_above = guess.at().y() < 50.0;
     let top = if is_above { map.top() + BELOW_BAR } else { map.bottom() - ABOVE_FOOT - height };
     let area = Rect::from_min_size(pos2(map.center().x - 0.5 * width, top), vec2(width, height));
     let now_secs = ui.input(|i| i.time);
@@ -112,11 +112,7 @@ pub(crate) fn card_ui(
     );
     let mut lines = ui.new_child(egui::UiBuilder::new().max_rect(text));
     lines.spacing_mut().item_spacing.y = 2.0;
-    let poles = panel.session.poles();
-    let along = |axis: usize| words::along(&poles[axis], guess.axes[axis].mean, guess.axes[axis].deviation);
-    let position = Label::new(RichText::new(format!("{} · {}", along(0), along(1))).strong());
-    let help = poles.each_ref().map(strings::axis_help).join("\n");
-    lines.add(position.truncate().selectable(false)).on_hover_text(help);
+    position_ui(&mut lines, panel, guess);
     // The prompt box may hold other words by now.
     let near = format!("{} · {}", guess.name, words::near(&nearest(panel, guess)));
     lines.add(Label::new(RichText::new(near).small()).truncate().selectable(false));
@@ -137,6 +133,29 @@ pub(crate) fn card_ui(
     }
     place.height = Some(needed);
     asked.map(Command::Prompt)
+}
+
+/// Draws the estimated coordinates, and the axes without an estimate.
+fn position_ui(ui: &mut Ui, panel: &Panel<'_>, guess: &PositionEstimate) {
+    let (names, poles) = (panel.session.axes(), panel.session.poles());
+    let (mut told, mut untold) = (Vec::new(), Vec::new());
+    for (axis, ((ends, name), estimate)) in poles.iter().zip(names).zip(&guess.axes).enumerate() {
+        match guess.mean(axis) {
+            Some(mean) => untold.push(axes::untold(name, mean)),
+            None => told.push(words::along(ends, estimate.mean, estimate.deviation)),
+        }
+    }
+    let help: Vec<String> = poles.iter().map(strings::axis_help).collect();
+    let position = Label::new(RichText::new(told.join(" · ")).strong()).selectable(false);
+    let is_long = panel.session.is_sliced();
+    let position = if is_long { position.wrap() } else { position.truncate() };
+    if !told.is_empty() {
+        ui.add(position).on_hover_text(help.join("\n"));
+    }
+    if !untold.is_empty() {
+        let text = RichText::new(untold.join(" · ")).small().color(tokens(ui.ctx()).text_weak);
+        ui.add(Label::new(text).wrap().selectable(false)).on_hover_text(words::UNTOLD_HELP);
+    }
 }
 
 /// Draws the materials that the picture is likely to show. A click on one takes its lexicon entry; a click on the taken one

@@ -17,9 +17,9 @@ use shagreen_learn::diffusion::Wish;
 use shagreen_learn::picture_predictor::PicturePredictor;
 
 use super::Arrived;
-use super::course::Course;
 use super::position_estimate::{MaterialEstimate, Origin, PositionEstimate, on_axes};
 use crate::state::background::in_background;
+use crate::state::course::Course;
 use crate::state::source::Source;
 use crate::strings::prompt as strings;
 use shagreen_studio::generate::{generate_by_diffusion, generate_procedurally};
@@ -60,7 +60,7 @@ pub(super) struct Maker {
 pub(super) struct Job {
     course: Arc<Course>,
     replaces: Option<(u32, Arc<Picture>)>,
-    axes: [String; 2],
+    axes: Vec<String>,
     arriving: Receiver<Result<Option<PositionEstimate>, String>>,
 }
 
@@ -69,7 +69,7 @@ impl Job {
         wanted: Wanted,
         replaces: Option<(u32, Arc<Picture>)>,
         maker: Maker,
-        axes: [String; 2],
+        axes: Vec<String>,
         ctx: &Context,
     ) -> Self {
         let course = Arc::new(Course::default());
@@ -108,7 +108,7 @@ impl Drop for Job {
 fn made(
     wanted: Wanted,
     maker: &Maker,
-    axes: &[String; 2],
+    axes: &[String],
     course: &Course,
     ctx: &Context,
 ) -> anyhow::Result<Option<PositionEstimate>> {
@@ -125,7 +125,7 @@ fn of_words(
     prompt: String,
     seed: u64,
     maker: &Maker,
-    axes: &[String; 2],
+    axes: &[String],
     course: &Course,
     ctx: &Context,
 ) -> anyhow::Result<Option<PositionEstimate>> {
@@ -175,7 +175,7 @@ fn of_photo(
     looker: &PicturePredictor,
     source: &Source,
     prompt: Option<String>,
-    axes: &[String; 2],
+    axes: &[String],
 ) -> anyhow::Result<PositionEstimate> {
     let name = source.name();
     let bytes = source.bytes().map_err(anyhow::Error::msg)?;
@@ -208,7 +208,8 @@ fn of_photo(
 
 /// What words and picture say together.
 struct Told {
-    axes: [Estimate; 2],
+    names: Vec<String>,
+    axes: Vec<Estimate>,
     /// Names of the axes on which they disagree.
     disputed: Vec<String>,
     materials: Vec<MaterialEstimate>,
@@ -220,18 +221,20 @@ fn told(
     looker: &PicturePredictor,
     words: Option<&PromptInterpretation>,
     surface: &Surface,
-    axes: &[String; 2],
+    axes: &[String],
     witness: Witness,
 ) -> anyhow::Result<Told> {
     let seen = looker.look(surface)?;
     let (estimates, disputed) = on_axes(axes, words, &seen.attributes, witness);
     let disputed = disputed.into_iter().map(str::to_owned).collect();
+    let names = axes.to_vec();
     if witness == Witness::OfTheWords {
         // What such a picture looks like is known from the words.
-        return Ok(Told { axes: estimates, disputed, materials: Vec::new(), doubts: Vec::new() });
+        return Ok(Told { names, axes: estimates, disputed, materials: Vec::new(), doubts: Vec::new() });
     }
     let materials = seen_materials(&seen.materials, built_in_lexicon()?);
     Ok(Told {
+        names,
         axes: estimates,
         disputed,
         materials: materials.iter().map(|material| MaterialEstimate::new(material, axes)).collect(),
@@ -248,7 +251,7 @@ fn guess(
     said: Vec<String>,
 ) -> anyhow::Result<PositionEstimate> {
     let picture = Arc::new(encode_jpeg(&Rgb::from(surface), surface.millimeters)?);
-    let Told { axes, materials, doubts, .. } = told;
+    let Told { names, axes, materials, doubts, .. } = told;
     Ok(PositionEstimate {
         key: None,
         origin,
@@ -256,7 +259,9 @@ fn guess(
         picture,
         surface: None,
         name,
+        names,
         axes,
+        means: Vec::new(),
         said,
         is_disputed: false,
         materials,

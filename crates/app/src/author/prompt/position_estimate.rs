@@ -28,8 +28,13 @@ pub struct PositionEstimate {
     pub surface: Option<GeneratedSurface>,
     /// Name of the texture.
     pub name: String,
-    /// Estimates along the two axes of the space (0 to 100), with standard deviations.
-    pub axes: [Estimate; 2],
+    /// Names of the axes of the space, made from the words at both ends of each.
+    pub names: Vec<String>,
+    /// Estimates along these axes (0 to 100), with standard deviations.
+    pub axes: Vec<Estimate>,
+    /// Local mean of the textures on each axis of which neither words nor picture say anything, in a space with more axes than the
+    /// canvas; `None` on the others. Empty if the estimates alone are the position.
+    pub means: Vec<Option<f64>>,
     /// Explanations as sentences, the most important ones first.
     pub said: Vec<String>,
     /// Whether words and an independent picture lead to different estimates on an axis.
@@ -50,7 +55,7 @@ pub struct MaterialEstimate {
     /// Name and probability, in percent.
     pub label: String,
     /// Estimates of its lexicon entry along the axes, if it has one.
-    pub axes: Option<[Estimate; 2]>,
+    pub axes: Option<Vec<Estimate>>,
 }
 
 /// Source of an estimate.
@@ -73,10 +78,42 @@ pub enum Origin {
 }
 
 impl PositionEstimate {
-    /// Estimated position, limited to the space (0 to 100 on both axes).
+    /// Estimated position, limited to the space (0 to 100 on each axis).
     pub fn at(&self) -> SpacePoint {
-        let [rough_smooth, hard_soft] = self.axes.map(|axis| axis.mean.clamp(0.0, 100.0));
-        SpacePoint { rough_smooth, hard_soft }
+        let coordinates: Vec<f64> =
+            (0..self.axes.len()).filter_map(|axis| Some(self.coordinate(axis)?.clamp(0.0, 100.0))).collect();
+        SpacePoint::of(&coordinates).unwrap_or_default()
+    }
+
+    /// Coordinate on an axis: that of the estimate, or its local mean without one.
+    fn coordinate(&self, axis: usize) -> Option<f64> {
+        let estimate = self.axes.get(axis)?;
+        Some(self.mean(axis).unwrap_or(estimate.mean))
+    }
+
+    /// Local mean of the textures on an axis without an estimate.
+    pub fn mean(&self, axis: usize) -> Option<f64> {
+        *self.means.get(axis)?
+    }
+
+    /// Estimates along both axes of the canvas; `None` in a space with one axis.
+    pub(crate) fn on_canvas(&self) -> Option<[Estimate; 2]> {
+        let [across, up, ..] = self.axes[..] else { return None };
+        let on = |axis: usize, estimate: Estimate| {
+            self.coordinate(axis).map_or(estimate, |mean| Estimate { mean, ..estimate })
+        };
+        Some([on(0, across), on(1, up)])
+    }
+
+    /// The estimate with the local mean on every axis without an estimate. `complete` returns a point with coordinates on
+    /// all axes from those that are told.
+    pub(crate) fn completed(self, complete: impl FnOnce(&[Option<f64>]) -> SpacePoint) -> Self {
+        let is_told = |axis: &Estimate| *axis != OPEN;
+        let told: Vec<Option<f64>> =
+            self.axes.iter().map(|axis| is_told(axis).then(|| axis.mean.clamp(0.0, 100.0))).collect();
+        let whole = complete(&told);
+        let mean = |(axis, told): (usize, &Option<f64>)| whole.get(axis).filter(|_| told.is_none());
+        Self { means: told.iter().enumerate().map(mean).collect(), ..self }
     }
 
     /// Key of the authored texture that was made from the estimate, and its picture.
@@ -101,11 +138,12 @@ impl PositionEstimate {
 
     /// The estimate with the lexicon entry of one of its materials; `None` if it has none.
     pub(super) fn with_material(&self, name: &str) -> Option<Self> {
-        let axes = self.materials.iter().find(|material| material.name == name)?.axes?;
+        let axes = self.materials.iter().find(|material| material.name == name)?.axes.clone()?;
         Some(Self {
             // In memory of its own, so that undo brings the former estimate back together with its picture.
             picture: Arc::new(Picture::clone(&self.picture)),
             axes,
+            means: Vec::new(),
             said: vec![strings::by_material(name), strings::NO_SCALE.to_owned()],
             is_disputed: false,
             doubts: Vec::new(),
@@ -117,7 +155,7 @@ impl PositionEstimate {
 
 impl MaterialEstimate {
     /// A material with the estimates of its lexicon entry along these axes. An axis without an estimate is [`OPEN`].
-    pub(super) fn new(seen: &SeenMaterial, axes: &[String; 2]) -> Self {
+    pub(super) fn new(seen: &SeenMaterial, axes: &[String]) -> Self {
         let along = |name: &String| {
             let index = ATTRIBUTES.iter().position(|attribute| attribute == name);
             let hint = index.and_then(|index| seen.entry.as_ref()?.hints[index]);
@@ -126,7 +164,7 @@ impl MaterialEstimate {
         Self {
             name: seen.name.clone(),
             label: seen.label(),
-            axes: seen.entry.as_ref().map(|_| axes.each_ref().map(along)),
+            axes: seen.entry.as_ref().map(|_| axes.iter().map(along).collect()),
         }
     }
 }
@@ -135,28 +173,29 @@ impl MaterialEstimate {
 /// disagree.
 /// A picture yields estimates for the first two of [`ATTRIBUTES`] only. An axis without an estimate is [`OPEN`].
 pub(super) fn on_axes<'a>(
-    axes: &'a [String; 2],
+    axes: &'a [String],
     words: Option<&PromptInterpretation>,
     picture: &[Estimate],
     witness: Witness,
-) -> ([Estimate; 2], Vec<&'a str>) {
+) -> (Vec<Estimate>, Vec<&'a str>) {
     let mut disputed = Vec::new();
-    let estimates = [0, 1].map(|axis| {
-        let index = ATTRIBUTES.iter().position(|name| *name == axes[axis]);
+    let mut estimate = |axis: &'a String| {
+        let index = ATTRIBUTES.iter().position(|name| name == axis);
         let said = index.and_then(|index| words.map(|words| words.attributes[index]));
         let seen = index.and_then(|index| picture.get(index).copied());
         match (said, seen) {
             (Some(said), Some(seen)) => {
                 let agreed = agree(said, seen, witness);
                 if agreed.differ {
-                    disputed.push(axes[axis].as_str());
+                    disputed.push(axis.as_str());
                 }
                 agreed.estimate
             }
             (Some(one), None) | (None, Some(one)) => one,
             (None, None) => OPEN,
         }
-    });
+    };
+    let estimates = axes.iter().map(&mut estimate).collect();
     (estimates, disputed)
 }
 
@@ -166,6 +205,7 @@ mod tests {
 
     use super::{MaterialEstimate, Origin, PositionEstimate, on_axes};
     use shagreen_core::maths::gaussian_process::Estimate;
+    use shagreen_core::space::SpacePoint;
     use shagreen_core::surfaces::generated::Witness;
     use shagreen_core::surfaces::prompt::{OPEN, interpret};
     use shagreen_formats::lexicon_toml::built_in_lexicon;
@@ -200,7 +240,7 @@ mod tests {
         let axes = ["hard-soft", "warm-cold"].map(str::to_owned);
         let carpet = MaterialEstimate::new(&seen[0], &axes);
         assert_eq!(carpet.label, "carpet 60 %");
-        assert_eq!(carpet.axes, Some([hints[1].unwrap(), OPEN]));
+        assert_eq!(carpet.axes, Some(vec![hints[1].unwrap(), OPEN]));
         assert_eq!(MaterialEstimate::new(&seen[1], &axes).axes, None);
 
         let starter = starter_library().unwrap();
@@ -211,7 +251,9 @@ mod tests {
             picture: Arc::new(starter.textures[0].picture.clone().unwrap()),
             surface: None,
             name: "floor".to_owned(),
-            axes: [OPEN; 2],
+            names: axes.to_vec(),
+            axes: vec![OPEN; 2],
+            means: Vec::new(),
             said: Vec::new(),
             is_disputed: false,
             materials: seen.iter().map(|seen| MaterialEstimate::new(seen, &axes)).collect(),
@@ -220,9 +262,18 @@ mod tests {
         };
         assert!(estimate.notes().contains("from the photo floor.jpg"));
         let taken = estimate.with_material("carpet").unwrap();
-        assert_eq!((taken.axes, &taken.taken), (carpet.axes.unwrap(), &Some("carpet".to_owned())));
+        assert_eq!((&taken.axes, &taken.taken), (&carpet.axes.unwrap(), &Some("carpet".to_owned())));
         assert!(taken.notes().contains("carpet in the lexicon") && taken.doubts.is_empty());
         assert!(taken.picture == estimate.picture && !Arc::ptr_eq(&taken.picture, &estimate.picture));
+        // An axis that the entry does not tell is completed.
+        assert_eq!((taken.at().y(), taken.mean(1)), (50.0, None));
+        let completed = taken.clone().completed(|told| {
+            assert_eq!(told, [Some(hints[1].unwrap().mean), None]);
+            SpacePoint::plane(1.0, 43.0)
+        });
+        assert_eq!((completed.at().x(), completed.at().y()), (hints[1].unwrap().mean, 43.0));
+        assert_eq!((completed.mean(0), completed.mean(1)), (None, Some(43.0)));
+        assert_eq!(completed.on_canvas().map(|axes| axes[1]), Some(Estimate { mean: 43.0, ..OPEN }));
         assert_eq!(estimate.with_material("plasma"), None);
         assert_eq!(estimate.with_material("brick"), None);
     }

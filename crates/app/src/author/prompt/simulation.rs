@@ -9,8 +9,8 @@ use shagreen_core::texture::TextureModel;
 use shagreen_formats::picture::Picture;
 use shagreen_studio::felt::{GeneratedSurface, felt};
 
-use super::course::Course;
 use crate::state::background::in_background;
+use crate::state::course::Course;
 use crate::strings::prompt as strings;
 
 /// Running simulation; dropping it stops it.

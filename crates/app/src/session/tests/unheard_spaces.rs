@@ -21,7 +21,7 @@ fn two() -> Project {
         Edit::JoinSimulated { key, entry: Arc::new(entry), earlier: None }
     };
     let edits = [
-        Edit::Author(AuthoredTexture::new(0, "Second")),
+        Edit::Author(Box::new(AuthoredTexture::new(0, "Second"))),
         join(1, "first", 40.0),
         join(2, "second", 60.0),
         Edit::Select(1),

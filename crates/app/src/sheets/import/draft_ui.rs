@@ -4,6 +4,7 @@ use egui::{Align, Label, Layout, RichText, ScrollArea, Ui, vec2};
 use shagreen_core::recording::fit::FitReport;
 
 use crate::look::plot::title;
+use crate::look::scroll_to_focus::scroll_to_focus;
 use crate::look::spectrum_plot::spectrum_plot;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::sheets::import::batch::{Batch, Content};
@@ -43,6 +44,7 @@ pub(super) fn draft_ui(
         ui.set_max_width(ui.available_width() - 10.0);
         ask_ui(ui, batch, id, for_all);
         plots_ui(ui, batch, id);
+        scroll_to_focus(ui);
     });
     ScrollArea::vertical().id_salt(("details", id)).auto_shrink(false).show(&mut details, |ui| {
         let Some(draft) = batch.draft_of_mut(id) else { return };
@@ -56,6 +58,7 @@ pub(super) fn draft_ui(
             let Content::Recording(state) = &file.content else { continue };
             list_ui(ui, strings::WARNINGS, &state.outcome.warnings, tokens(ui.ctx()).warning);
         }
+        scroll_to_focus(ui);
     });
 }
 

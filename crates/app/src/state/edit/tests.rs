@@ -23,7 +23,7 @@ fn after(project: &Project, edits: impl IntoIterator<Item = Edit>) -> Project {
 
 #[test]
 fn edits_are_named() {
-    let at = SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 };
+    let at = SpacePoint::plane(1.0, 2.0);
     assert_eq!(Edit::MovePoint(at).label(&project()), "Move Oak copy");
     assert_eq!(lock("oak", true).label(&project()), "Pin Oak");
     assert_eq!(lock("oak", false).label(&project()), "Unpin Oak");
@@ -36,7 +36,7 @@ fn a_material_moves_the_texture_and_changes_nothing_else() {
     let picture = Arc::new(starter.textures[0].picture.clone().unwrap());
     let take = |material: Option<&str>| Edit::TakeMaterial {
         material: material.map(str::to_owned),
-        at: SpacePoint { rough_smooth: 29.0, hard_soft: 89.0 },
+        at: SpacePoint::plane(29.0, 89.0),
         picture: Arc::clone(&picture),
         notes: "carpet".to_owned(),
     };
@@ -45,14 +45,14 @@ fn a_material_moves_the_texture_and_changes_nothing_else() {
     let solo = after(&project(), [Edit::Solo(Some("cork".to_owned())), lock("oak", true)]);
     let taken = after(&solo, [take(Some("carpet"))]);
     let texture = taken.texture();
-    assert_eq!((texture.at.hard_soft, texture.notes.as_str(), &taken.solo), (89.0, "carpet", &None));
+    assert_eq!((texture.at.y(), texture.notes.as_str(), &taken.solo), (89.0, "carpet", &None));
     assert!(texture.picture.as_ref().is_some_and(|of| Arc::ptr_eq(of, &picture)));
     assert!(texture.blend.is_locked("oak"));
 }
 
 #[test]
 fn a_texture_becomes_exactly_one_of_the_library() {
-    let at = SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 };
+    let at = SpacePoint::plane(1.0, 2.0);
     let before = after(
         &project(),
         [
@@ -126,7 +126,7 @@ fn a_shape_is_limited_to_its_ranges_and_reset_at_once() {
 #[test]
 fn authored_textures_come_and_go() {
     let one = project();
-    let two = after(&one, [Edit::Author(AuthoredTexture::new(0, "Felt"))]);
+    let two = after(&one, [Edit::Author(Box::new(AuthoredTexture::new(0, "Felt")))]);
     assert_eq!((two.authored.len(), two.texture().name.as_str(), two.texture().key), (2, "Felt", 2));
     let first = after(&two, [Edit::Select(1)]);
     assert_eq!(first.texture().name, "Oak copy");
@@ -139,7 +139,7 @@ fn authored_textures_come_and_go() {
 
 #[test]
 fn a_snapshot_brings_a_state_back_but_not_its_name() {
-    let at = SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 };
+    let at = SpacePoint::plane(1.0, 2.0);
     let kept = after(&project(), [Edit::KeepSnapshot]);
     let moved = after(&kept, [Edit::MovePoint(at), Edit::Rename("New".to_owned()), Edit::RestoreSnapshot(0)]);
     assert_eq!((moved.texture().at, moved.texture().name.as_str()), (project().texture().at, "New"));
@@ -149,10 +149,11 @@ fn a_snapshot_brings_a_state_back_but_not_its_name() {
 
 #[test]
 fn a_snapshot_restores_its_own_texture_and_no_other() {
-    let at = SpacePoint { rough_smooth: 1.0, hard_soft: 2.0 };
+    let at = SpacePoint::plane(1.0, 2.0);
     let first = project().texture().clone();
     let kept = after(&project(), [Edit::KeepSnapshot, Edit::MovePoint(at)]);
-    let two = after(&kept, [Edit::Author(AuthoredTexture { at, ..AuthoredTexture::new(0, "Felt") })]);
+    let two =
+        after(&kept, [Edit::Author(Box::new(AuthoredTexture { at, ..AuthoredTexture::new(0, "Felt") }))]);
     assert_eq!(Edit::RestoreSnapshot(0).label(&two), "Restore snapshot of Oak copy");
     let restored = after(&two, [Edit::RestoreSnapshot(0)]);
     assert_eq!((restored.texture(), &restored.authored[1]), (&first, &two.authored[1]));

@@ -26,7 +26,7 @@ pub(super) fn outline(authoring: &Authoring, blending: &Blending) -> Vec<SpacePo
 /// Points far outside a convex polygon. The nearest point of the polygon moves once around it from one to the next.
 fn around(hull: &[SpacePoint]) -> Vec<SpacePoint> {
     let n = hull.len();
-    let corner = |i: usize| [hull[i % n].rough_smooth, hull[i % n].hard_soft];
+    let corner = |i: usize| [hull[i % n].x(), hull[i % n].y()];
     let turn: f64 = (0..n).map(|i| cross(corner(i), corner(i + 1))).sum();
     // Angle of the normal that points outward from the edge after a corner.
     let normal = |i: usize| {
@@ -34,10 +34,8 @@ fn around(hull: &[SpacePoint]) -> Vec<SpacePoint> {
         let (along_x, along_y) = (turn.signum() * (next_x - x), turn.signum() * (next_y - y));
         (-along_x).atan2(along_y)
     };
-    let moved = |[x, y]: [f64; 2], angle: f64| SpacePoint {
-        rough_smooth: x + FAR * angle.cos(),
-        hard_soft: y + FAR * angle.sin(),
-    };
+    let moved =
+        |[x, y]: [f64; 2], angle: f64| SpacePoint::plane(x + FAR * angle.cos(), y + FAR * angle.sin());
     let mut points = Vec::new();
     for i in 0..n {
         let ([x, y], [next_x, next_y]) = (corner(i), corner(i + 1));
@@ -101,7 +99,7 @@ mod tests {
     use shagreen_core::space::{Space, SpacePoint};
 
     fn at(rough_smooth: f64, hard_soft: f64) -> SpacePoint {
-        SpacePoint { rough_smooth, hard_soft }
+        SpacePoint::plane(rough_smooth, hard_soft)
     }
 
     fn space() -> Space {

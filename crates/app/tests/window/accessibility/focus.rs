@@ -39,6 +39,8 @@ pub(super) struct Stop {
     name: String,
     role: Role,
     area: Rect,
+    /// Whether its panel had scrolled when it was reached, so that its area says nothing about its place in the panel.
+    is_scrolled: bool,
 }
 
 impl Stop {
@@ -83,7 +85,7 @@ fn stops<State>(harness: &Harness<'_, State>, is_wanted: impl Fn(NodeId) -> bool
             let hint = || inner.data().placeholder().map(str::to_owned);
             let text = || inner.value().filter(|_| inner.role() == Role::Label);
             let name = inner.label().or_else(hint).or_else(text).unwrap_or_default();
-            found.push(Stop { id, name, role: inner.role(), area: node.rect() });
+            found.push(Stop { id, name, role: inner.role(), area: node.rect(), is_scrolled: false });
         }
     }
     found
@@ -118,7 +120,7 @@ pub(super) fn tab_through<State>(harness: &mut Harness<'_, State>) -> Walk {
         outlined.push(is_outlined(harness, stop.area));
         last = Some((stop.clone(), colors));
         let area = areas.get(&stop.id).copied().unwrap_or(stop.area);
-        stops.push(Stop { area, ..stop });
+        stops.push(Stop { area, is_scrolled: area != stop.area, ..stop });
     }
     if let Some((stop, with_focus)) = last {
         marked.push(is_marked(harness, &stop, &with_focus));
@@ -216,7 +218,7 @@ pub(super) fn out_of_order(stops: &[Stop]) -> Vec<String> {
     // Rows of the library, cards of contributions and controls of the shape scroll while the focus moves.
     let begins = ["Texture ", "Menu of ", "Star ", "Solo ", "Pin ", "Unpin ", "Shape", "Reset "];
     let is_row = |stop: &Stop| begins.iter().any(|begin| stop.name.starts_with(begin));
-    for stop in stops.iter().filter(|stop| !is_on_canvas(stop) && !is_row(stop)) {
+    for stop in stops.iter().filter(|stop| !is_on_canvas(stop) && !is_row(stop) && !stop.is_scrolled) {
         if before.is_none_or(|before| goes_back(before.area, stop.area)) {
             runs.push((stop.area, stop));
         } else if let Some((run, _)) = runs.last_mut() {

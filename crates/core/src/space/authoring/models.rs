@@ -54,7 +54,7 @@ struct Sampled {
 impl Sampled {
     fn at(&self, at: SpacePoint) -> Site<'_> {
         let (along, turn_rad) = (self.along.as_ref(), self.turn_rad);
-        Site { at: at.xy(), grain: &self.grain, along, turn_rad, friction: self.friction, tap: self.tap }
+        Site { at: at.unit(), grain: &self.grain, along, turn_rad, friction: self.friction, tap: self.tap }
     }
 
     /// Grains that the texture contributes with this weight across (0) or along (1) the lay of `axes`, and their weights.
@@ -172,7 +172,7 @@ impl Models {
         lock: Option<(usize, f64)>,
     ) -> Result<TextureModel, TextureModelError> {
         let own = |(texture, share): (usize, f64)| Some((self.site(texture)?.at(at), share));
-        self.field.texture(&self.sampling, at.xy(), axes, lock.and_then(own))
+        self.field.texture(&self.sampling, at.unit(), axes, lock.and_then(own))
     }
 
     /// Weighted sum of the textures' reliefs; `None` if no texture has one.
@@ -226,12 +226,15 @@ impl Models {
 
     /// Weight of each texture in the field at a point.
     pub(super) fn weights(&self, at: SpacePoint) -> Vec<(usize, f64)> {
-        self.sites.iter().map(|site| site.texture).zip(self.field.weights(at.xy())).collect()
+        self.sites.iter().map(|site| site.texture).zip(self.field.weights(at.unit())).collect()
     }
 
     /// Farthest point to which the field extrapolates from a point of the hull towards one outside.
     pub(super) fn supported(&self, inside: SpacePoint, to: SpacePoint) -> SpacePoint {
-        if inside == to { to } else { SpacePoint::from_xy(self.field.supported(inside.xy(), to.xy())) }
+        if inside == to {
+            return to;
+        }
+        SpacePoint::from_unit(inside.n_axes(), self.field.supported(inside.unit(), to.unit()))
     }
 
     /// Weighted mean of textures: line spectral frequencies and ln level at every contact, across the lay of `axes` and, if

@@ -1,3 +1,4 @@
+mod further_axes;
 mod layers;
 mod taps;
 
@@ -25,8 +26,8 @@ fn point(rs: f64, hs: f64) -> SpacePoint {
     SpacePoint::new(rs, hs).unwrap()
 }
 
-/// Textures whose level falls along the first axis and whose upper resonance falls along the second. The level has
-/// random errors of the given standard deviation in dB.
+/// Textures whose level falls along the first axis, whose resonances fall along the second, and whose level rises along
+/// further axes. The level has random errors of the given standard deviation in dB.
 pub(crate) struct World {
     places: Vec<SpacePoint>,
     planes: Vec<Plane>,
@@ -35,27 +36,33 @@ pub(crate) struct World {
 
 fn truth(at: SpacePoint, ripple: f64) -> TextureModel {
     let base = two_resonances(&[0.03, 0.08, 0.16], &[0.3, 0.8, 1.5]);
-    let shift = 1.0 - 0.004 * at.hard_soft;
+    let shift = 1.0 - 0.004 * at.y();
+    let further: f64 = at.coordinates().iter().skip(2).sum();
     let nodes = base.nodes().iter().map(|n| GrainNode {
         lsf: n.lsf.iter().map(|w| w * shift).collect(),
-        level_mps2: n.level_mps2 * (ripple - 0.03 * at.rough_smooth).exp(),
+        level_mps2: n.level_mps2 * (ripple - 0.03 * at.x() + 0.01 * further).exp(),
         ..n.clone()
     });
-    let tap = Tap {
-        frequency: Hertz(300.0 * (-0.02 * at.hard_soft).exp()),
-        decay_per_sec: 90.0,
-        amplitude_mps2: 40.0,
-    };
-    let friction = Some(0.2 * (0.01 * at.rough_smooth).exp());
+    let tap =
+        Tap { frequency: Hertz(300.0 * (-0.02 * at.y()).exp()), decay_per_sec: 90.0, amplitude_mps2: 40.0 };
+    let friction = Some(0.2 * (0.01 * at.x()).exp());
     TextureModel::new(base.rate(), nodes.collect(), friction).unwrap().with_tap(Some(tap))
 }
 
 pub(crate) fn world(n: usize, noise_db: f64, seed: u64) -> World {
+    world_on(2, n, noise_db, seed)
+}
+
+fn world_on(n_axes: usize, n: usize, noise_db: f64, seed: u64) -> World {
     let mut random = Random::new(seed);
-    let places: Vec<SpacePoint> =
-        (0..n).map(|_| point(100.0 * random.uniform(), 100.0 * random.uniform())).collect();
+    let mut coordinates = || (0..n_axes).map(|_| 100.0 * random.uniform()).collect::<Vec<f64>>();
+    let places: Vec<SpacePoint> = (0..n).map(|_| SpacePoint::of(&coordinates()).unwrap()).collect();
     let textures: Vec<TextureModel> =
         places.iter().map(|at| truth(*at, noise_db * random.normal() / 8.686)).collect();
+    world_of(places, &textures)
+}
+
+fn world_of(places: Vec<SpacePoint>, textures: &[TextureModel]) -> World {
     let planes: Vec<Plane> = textures.iter().map(Plane::new).collect();
     let layers: Vec<_> = textures.iter().zip(&planes).map(|(t, plane)| Some(Layers::of(t, plane))).collect();
     let space = Space::new(&places.iter().map(|p| Some(*p)).collect::<Vec<_>>()).unwrap();
@@ -77,8 +84,11 @@ fn db(world: &World, authored: &Authored) -> Vec<f64> {
         })
         .collect();
     let parents: Vec<(&Plane, f64)> = made.iter().map(|(plane, share)| (plane, *share)).collect();
-    let psd =
-        mixture_psd(&parents, authored.mixing(), contact(), &comparison_frequencies(Hertz(1000.0), 100));
+    db_of(&parents, authored.mixing())
+}
+
+fn db_of(parents: &[(&Plane, f64)], mixing: Mode) -> Vec<f64> {
+    let psd = mixture_psd(parents, mixing, contact(), &comparison_frequencies(Hertz(1000.0), 100));
     psd.into_iter().map(|p| 10.0 * p.log10()).collect()
 }
 
@@ -242,12 +252,7 @@ fn few_textures_make_a_field_too() {
 /// Change in dB between the ends of a way after repeated bisection towards the half with the larger change. It is near
 /// zero unless the result is discontinuous at an edge, a vertex or the hull.
 fn jump_at_worst(world: &World, blending: &Blending, from: SpacePoint, to: SpacePoint) -> f64 {
-    let between = |a: f64, b: f64, t: f64| a + t * (b - a);
-    let at = |t: f64| {
-        let p =
-            point(between(from.rough_smooth, to.rough_smooth, t), between(from.hard_soft, to.hard_soft, t));
-        db(world, &world.authoring.author(p, blending).unwrap())
-    };
+    let at = |t: f64| db(world, &world.authoring.author(from.toward(to, t), blending).unwrap());
     let (mut low, mut high) = (0.0, 1.0);
     let (mut at_low, mut at_high) = (at(low), at(high));
     for _ in 0..26 {

@@ -96,7 +96,7 @@ mod tests {
     }
 
     fn site<'a>(grain: &'a SampledGrain, along: Option<&'a SampledGrain>) -> Site<'a> {
-        Site { at: [0.0, 0.0], grain, along, turn_rad: 0.3, friction: None, tap: None }
+        Site { at: [0.0; 6], grain, along, turn_rad: 0.3, friction: None, tap: None }
     }
 
     const AXES: MeanAxes = MeanAxes::at(0.3);

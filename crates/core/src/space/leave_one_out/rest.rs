@@ -17,20 +17,20 @@ const ON_HULL: f64 = 1e-6;
 
 /// A texture with a position.
 #[derive(Clone, Debug)]
-pub(super) struct Placed {
+pub(in crate::space) struct Placed {
     /// Library index of the texture.
-    pub(super) texture: usize,
+    pub(in crate::space) texture: usize,
     /// Position of the texture.
-    pub(super) at: SpacePoint,
+    pub(in crate::space) at: SpacePoint,
     /// Plane of the texture, at its own sample rate or [`COMPARED_RATE`], whichever is higher.
-    pub(super) plane: Arc<Plane>,
+    pub(in crate::space) plane: Arc<Plane>,
 }
 
 /// A predicted texture: planes of one sample rate, their weights, and the mode that mixes them.
 #[derive(Clone, Debug)]
-pub(super) struct Made {
-    pub(super) parts: Vec<(Arc<Plane>, f64)>,
-    pub(super) mixing: Mode,
+pub(in crate::space) struct Made {
+    pub(in crate::space) parts: Vec<(Arc<Plane>, f64)>,
+    pub(in crate::space) mixing: Mode,
 }
 
 impl Made {
@@ -38,14 +38,14 @@ impl Made {
         self.parts.iter().map(|(plane, weight)| (&**plane, *weight)).collect()
     }
 
-    pub(super) fn profile(&self, channels: &Channels) -> Profile {
+    pub(in crate::space) fn profile(&self, channels: &Channels) -> Profile {
         channels.profile(&self.parents(), self.mixing)
     }
 }
 
 impl Placed {
     /// All textures with a position.
-    pub(super) fn all(
+    pub(in crate::space) fn all(
         textures: &[(&TextureModel, Option<SpacePoint>)],
     ) -> Result<Vec<Self>, LeaveOneOutError> {
         let placed = textures.iter().enumerate().filter_map(|(i, (model, at))| at.map(|at| (i, *model, at)));
@@ -58,24 +58,24 @@ impl Placed {
     }
 
     /// The unchanged texture.
-    pub(super) fn original(&self) -> Made {
+    pub(in crate::space) fn original(&self) -> Made {
         Made { parts: vec![(self.plane.clone(), 1.0)], mixing: Mode::Shared }
     }
 }
 
 /// Whether a position is strictly inside the hull of a space.
-pub(super) fn is_inside(space: &Space, at: SpacePoint) -> bool {
+pub(in crate::space) fn is_inside(space: &Space, at: SpacePoint) -> bool {
     space.locate(at).is_some_and(|location| !location.clamped) && space.hull_distance(at) > ON_HULL
 }
 
 /// The other texture nearest to `to` in the space.
-pub(super) fn nearest<'a>(placed: &'a [Placed], to: &Placed) -> Option<&'a Placed> {
+pub(in crate::space) fn nearest<'a>(placed: &'a [Placed], to: &Placed) -> Option<&'a Placed> {
     let rest = placed.iter().filter(|placed| placed.texture != to.texture);
     rest.min_by(|a, b| a.at.distance(to.at).total_cmp(&b.at.distance(to.at)))
 }
 
 /// Textures of a library, as input for all spaces without one of them.
-pub(super) struct Rests<'a> {
+pub(in crate::space) struct Rests<'a> {
     textures: &'a [(&'a TextureModel, Option<SpacePoint>)],
     /// Planes by sample rate, indexed like the library; `None` for a texture with a higher rate. There are at most two
     /// entries: the highest rate of all textures, and the highest without the only texture that has it.
@@ -83,12 +83,12 @@ pub(super) struct Rests<'a> {
 }
 
 impl<'a> Rests<'a> {
-    pub(super) fn new(textures: &'a [(&'a TextureModel, Option<SpacePoint>)]) -> Self {
+    pub(in crate::space) fn new(textures: &'a [(&'a TextureModel, Option<SpacePoint>)]) -> Self {
         Self { textures, at_rates: Vec::new() }
     }
 
     /// Predictions at the position of `left_out` from the remaining textures, one per blending.
-    pub(super) fn made_without(
+    pub(in crate::space) fn made_without(
         &mut self,
         left_out: &Placed,
         blendings: &[Blending],
@@ -96,21 +96,54 @@ impl<'a> Rests<'a> {
         let (left_out, at) = (left_out.texture, left_out.at);
         let space = rest_of(self.textures, left_out)?;
         let planes = self.planes_without(left_out)?;
-        let mut authoring = Authoring::new(space);
-        if blendings.iter().any(|blending| blending.mode.makes_a_model()) {
-            let layers = self.textures.iter().zip(&planes);
-            let layers = layers.map(|((model, _), plane)| Some(Layers::of(model, plane.as_deref()?)));
-            let layers: Vec<Option<Layers<'_>>> = layers.collect();
-            let models = Models::new(authoring.space(), &layers)
-                .map_err(|source| LeaveOneOutError::Models { texture: left_out, source })?;
-            authoring = authoring.with_models(Arc::new(models));
-        }
+        let authoring = self.authoring(space, &planes, blendings, left_out)?;
         let authored = blendings.iter().map(|blending| {
             let unmade = LeaveOneOutError::Unmade { texture: left_out, mode: blending.mode.id() };
             let authored = authoring.author(at, blending);
             authored.and_then(|authored| made(&authored, &planes)).ok_or(unmade)
         });
         authored.collect()
+    }
+
+    /// Predictions at positions, from all textures that have a position; `predicted` are the library indices of the textures
+    /// that are predicted.
+    pub(in crate::space) fn made_at(
+        &mut self,
+        positions: &[SpacePoint],
+        blending: &Blending,
+        predicted: &[usize],
+    ) -> Result<Vec<Made>, LeaveOneOutError> {
+        let places: Vec<Option<SpacePoint>> = self.textures.iter().map(|(_, at)| *at).collect();
+        // No texture has this index, so none is left out.
+        let planes = self.planes_without(usize::MAX)?;
+        let first = predicted.first().copied().unwrap_or_default();
+        let authoring =
+            self.authoring(Space::new(&places)?, &planes, std::slice::from_ref(blending), first)?;
+        let authored = positions.iter().zip(predicted).map(|(at, texture)| {
+            let unmade = LeaveOneOutError::Unmade { texture: *texture, mode: blending.mode.id() };
+            authoring.author(*at, blending).and_then(|authored| made(&authored, &planes)).ok_or(unmade)
+        });
+        authored.collect()
+    }
+
+    /// Interpolation in a space, with the models that the blendings need. An error names the texture that is predicted.
+    fn authoring(
+        &self,
+        space: Space,
+        planes: &[Option<Arc<Plane>>],
+        blendings: &[Blending],
+        left_out: usize,
+    ) -> Result<Authoring, LeaveOneOutError> {
+        let mut authoring = Authoring::new(space);
+        if blendings.iter().any(|blending| blending.mode.makes_a_model()) {
+            let layers = self.textures.iter().zip(planes);
+            let layers = layers.map(|((model, _), plane)| Some(Layers::of(model, plane.as_deref()?)));
+            let layers: Vec<Option<Layers<'_>>> = layers.collect();
+            let models = Models::new(authoring.space(), &layers)
+                .map_err(|source| LeaveOneOutError::Models { texture: left_out, source })?;
+            authoring = authoring.with_models(Arc::new(models));
+        }
+        Ok(authoring)
     }
 
     /// Planes of the remaining textures, at the highest sample rate among them.
@@ -134,7 +167,9 @@ impl<'a> Rests<'a> {
             self.at_rates.push((rate, planes.clone()));
             planes
         };
-        planes[left_out] = None;
+        if let Some(plane) = planes.get_mut(left_out) {
+            *plane = None;
+        }
         Ok(planes)
     }
 }

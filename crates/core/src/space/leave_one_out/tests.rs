@@ -23,8 +23,8 @@ fn point(rs: f64, hs: f64) -> SpacePoint {
 fn truth(at: SpacePoint, noise_db: f64) -> TextureModel {
     let base = two_resonances(&[0.03, 0.08, 0.16], &[0.2, 0.8, 1.5]);
     let nodes = base.nodes().iter().map(|n| GrainNode {
-        lsf: n.lsf.iter().map(|w| w * (1.0 - 0.004 * at.hard_soft)).collect(),
-        level_mps2: n.level_mps2 * (noise_db / 8.686 - 0.03 * at.rough_smooth).exp(),
+        lsf: n.lsf.iter().map(|w| w * (1.0 - 0.004 * at.y())).collect(),
+        level_mps2: n.level_mps2 * (noise_db / 8.686 - 0.03 * at.x()).exp(),
         ..n.clone()
     });
     TextureModel::new(base.rate(), nodes.collect(), Some(0.4)).unwrap()
@@ -79,8 +79,7 @@ fn an_oracle_is_right_and_its_opposite_wrong() {
 fn a_pure_level_difference_has_no_shape_error() {
     let at = [[0.0, 0.0], [100.0, 0.0], [0.0, 100.0], [100.0, 100.0], [30.0, 50.0]].map(|[r, h]| point(r, h));
     // One hardness for all spectra; the level follows from the roughness alone.
-    let world: Vec<_> =
-        at.into_iter().map(|at| (truth(point(at.rough_smooth, 50.0), 0.0), Some(at))).collect();
+    let world: Vec<_> = at.into_iter().map(|at| (truth(point(at.x(), 50.0), 0.0), Some(at))).collect();
     let measured = run(&world, &Plan { blendings: Vec::new(), signals: None }).unwrap();
     let nearest = measured.methods[0].clone();
     assert!(nearest.error_db_mean > 1.0 && nearest.level_error_db_mean > 1.0, "{nearest:?}");

@@ -130,7 +130,7 @@ pub(super) fn axis_correlation(adjectives: &[Adjective], chosen: Chosen) -> Opti
 /// Position of each texture, from both axes.
 pub(super) fn positions([first, second]: &[Axis; 2]) -> Vec<SpacePoint> {
     let pairs = first.places().iter().zip(second.places());
-    pairs.map(|(x, y)| SpacePoint { rough_smooth: *x, hard_soft: *y }).collect()
+    pairs.map(|(x, y)| SpacePoint::plane(*x, *y)).collect()
 }
 
 /// An axis with its prediction. `felt` is `None` if all textures have the same perceived position.

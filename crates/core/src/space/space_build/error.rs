@@ -1,11 +1,11 @@
 //! Errors of building a space.
 
-use crate::maths::triangulation::TriangulationError;
 use crate::people::dissimilarities::DissimilaritiesError;
 use crate::people::mds::{MAX_DIMS, MdsError};
 use crate::people::property::PropertyError;
 use crate::people::ratings::{RatingsError, VoteError};
 use crate::people::sorting::SortingError;
+use crate::space::SpaceError;
 use crate::space::features::FeatureError;
 use crate::space::selection::SelectionError;
 use crate::space::space_build::LEAST_RATED;
@@ -151,7 +151,7 @@ pub enum SpaceBuildError {
     },
     /// The positions cannot be triangulated.
     #[error(transparent)]
-    Triangulation(#[from] TriangulationError),
+    Space(#[from] SpaceError),
 }
 
 impl From<MdsError> for SpaceBuildError {

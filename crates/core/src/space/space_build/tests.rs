@@ -151,15 +151,12 @@ fn positions_are_predicted_if_the_nested_correlation_reaches_the_limit() {
         }
         assert!(validation_summary(built).join("\n").contains(words), "{:?}", validation_summary(built));
     }
-    assert_eq!(own.positions[3].hard_soft, own.axes[1].prediction.as_ref().unwrap().predicted[3]);
-    assert_eq!(others.positions[3].hard_soft, others.axes[1].felt[3]);
+    assert_eq!(own.positions[3].y(), own.axes[1].prediction.as_ref().unwrap().predicted[3]);
+    assert_eq!(others.positions[3].y(), others.axes[1].felt[3]);
     // An explicit placement is used whatever the nested correlation.
     let [felt, predicted] = [built(Some(PlacedBy::Felt), 1), built(Some(PlacedBy::Predicted), 5)];
-    assert_eq!(felt.positions[3].rough_smooth, felt.axes[0].felt[3]);
-    assert_eq!(
-        predicted.positions[3].rough_smooth,
-        predicted.axes[0].prediction.as_ref().unwrap().predicted[3]
-    );
+    assert_eq!(felt.positions[3].x(), felt.axes[0].felt[3]);
+    assert_eq!(predicted.positions[3].x(), predicted.axes[0].prediction.as_ref().unwrap().predicted[3]);
 }
 
 #[test]
@@ -186,7 +183,7 @@ fn without_the_usual_pairs_the_best_pair_of_each_dimension_is_chosen_and_orthogo
     let [first, second] = built.axes.each_ref().map(|axis| axis.direction.as_ref().unwrap());
     let across: f64 = first.iter().zip(second).map(|(a, b)| a * b).sum();
     assert!(across.abs() < 1e-12);
-    assert_eq!(built.positions[5].hard_soft, built.axes[1].prediction.as_ref().unwrap().predicted[5]);
+    assert_eq!(built.positions[5].y(), built.axes[1].prediction.as_ref().unwrap().predicted[5]);
 }
 
 #[test]

@@ -97,11 +97,13 @@ fn simplified(line: &[SpacePoint], tolerance: f64) -> Vec<SpacePoint> {
 
 /// Distance of a point from the segment between two others, in points of the axes.
 fn beside(point: SpacePoint, from: SpacePoint, to: SpacePoint) -> f64 {
-    let (along, up) = (to.rough_smooth - from.rough_smooth, to.hard_soft - from.hard_soft);
-    let squared = along * along + up * up;
-    let (x, y) = (point.rough_smooth - from.rough_smooth, point.hard_soft - from.hard_soft);
-    let share = if squared > 0.0 { ((x * along + y * up) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    (x - share * along).hypot(y - share * up)
+    let (mut squared, mut product) = (0.0, 0.0);
+    for ((from, to), point) in from.coordinates().iter().zip(to.coordinates()).zip(point.coordinates()) {
+        squared += (to - from) * (to - from);
+        product += (point - from) * (to - from);
+    }
+    let share: f64 = if squared > 0.0 { (product / squared).clamp(0.0, 1.0) } else { 0.0 };
+    point.distance(from.toward(to, share))
 }
 
 #[cfg(test)]
@@ -111,7 +113,7 @@ mod tests {
     use crate::space::texture_path::{Along, AtEnd};
 
     fn at(rough_smooth: f64, hard_soft: f64) -> SpacePoint {
-        SpacePoint { rough_smooth, hard_soft }
+        SpacePoint::plane(rough_smooth, hard_soft)
     }
 
     #[test]

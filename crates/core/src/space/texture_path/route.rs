@@ -231,9 +231,5 @@ pub(super) fn between(places: impl Iterator<Item = f64>, place: f64) -> (usize, 
 }
 
 pub(super) fn mean(from: SpacePoint, to: SpacePoint, share: f64) -> SpacePoint {
-    let between = |a: f64, b: f64| a + share * (b - a);
-    SpacePoint {
-        rough_smooth: between(from.rough_smooth, to.rough_smooth),
-        hard_soft: between(from.hard_soft, to.hard_soft),
-    }
+    from.toward(to, share)
 }

@@ -34,7 +34,7 @@ pub(super) fn names_ui(
         }
         // The texture generated for it lies below it and has the same name.
         let is_same = |own: &usize| {
-            panel.session.position(*own) == Some(texture.at)
+            panel.session.position(*own) == Some(panel.session.fitted(texture.at))
                 && panel.session.textures()[*own].name == texture.name
         };
         if is_selected && !is_pointed && own_textures(panel, texture).iter().any(is_same) {

@@ -73,8 +73,7 @@ fn level_ratio(model: &TextureModel) -> f64 {
 fn a_blend_lies_between_a_directional_and_an_isotropic_texture() {
     let authoring = authoring(&with_brushed(&bumps()));
     let brushed = places()[BRUSHED];
-    let between =
-        |t: f64| point((1.0 - t) * brushed.rough_smooth + t * 90.0, (1.0 - t) * brushed.hard_soft + t * 10.0);
+    let between = |t: f64| point((1.0 - t) * brushed.x() + t * 90.0, (1.0 - t) * brushed.y() + t * 10.0);
     // On the straight line to an isotropic texture, an edge of the triangulation, the weights are 1 - t and t.
     for t in [0.0, 0.25, 0.5, 0.75] {
         let ratio = level_ratio(&model_at(&authoring, between(t), Mode::Parametric));

@@ -55,7 +55,7 @@ fn positions_are_mean_ratings_and_features_predict_them() {
         let alpha = built.adjectives[axis.adjective].agreement.as_ref().unwrap().alpha;
         assert!(alpha.value > 0.9 && alpha.low < alpha.value, "{alpha:?}");
     }
-    assert_eq!(built.positions[4].hard_soft, built.axes[1].felt[4]);
+    assert_eq!(built.positions[4].y(), built.axes[1].felt[4]);
     // The panel has eight raters with noise of 8 and a bias of 5 points.
     let errors = position_errors(&built).unwrap();
     assert!(errors.iter().all(|error| (1.5..6.0).contains(error)), "{errors:?}");
@@ -260,7 +260,7 @@ fn predicted_positions_are_used_only_on_request() {
     let options = SpaceOptions { placement: Some(PlacedBy::Predicted), ..fast() };
     let built = rated(ratings, &options).unwrap();
     let prediction = built.axes[0].prediction.as_ref().unwrap();
-    assert_eq!(built.positions[3].rough_smooth, prediction.predicted[3]);
+    assert_eq!(built.positions[3].x(), prediction.predicted[3]);
     assert!(validation_summary(&built).join("\n").contains("positions predicted from features"));
 }
 

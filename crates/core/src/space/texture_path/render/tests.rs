@@ -24,7 +24,7 @@ fn a_path_is_heard_as_it_is_traveled() {
         TextureModel::new(Hertz(1000.0), nodes.collect(), None).unwrap()
     };
     let key = |level: f64, along: f64| Key {
-        stop: Stop { at: SpacePoint { rough_smooth: 0.0, hard_soft: 0.0 }, along },
+        stop: Stop { at: SpacePoint::plane(0.0, 0.0), along },
         is_stop: true,
         model: model(level),
     };

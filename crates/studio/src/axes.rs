@@ -1,0 +1,342 @@
+//! Axes of a space: which ones a library knows, positions of its textures on a choice of them, and what each adds.
+//!
+//! An axis has a name: that of an axis of the positions of a library or of an attribute, each by its two poles (`rough-smooth`),
+//! or that of a feature of the vibration (`centroid`). If several have the same name, it is that of the first of these.
+//! [`ATTRIBUTE_PREFIX`](shagreen_formats::project::ATTRIBUTE_PREFIX) before a name selects the attribute.
+
+use shagreen_core::people::ratings::poles;
+use shagreen_core::space::axis_evaluation::{AxisCandidate, AxisEvaluation, evaluate_axes};
+use shagreen_core::space::signal_axes::SignalAxis;
+use shagreen_core::space::{LabelSource, MOST_AXES, SpacePoint, local_mean};
+use shagreen_core::surfaces::touch_words::ATTRIBUTES;
+use shagreen_core::texture::TextureModel;
+use shagreen_formats::library::{Library, Place, TextureEntry, USUAL_AXES};
+use shagreen_formats::placed_space::is_dimension_name;
+use shagreen_formats::project::plain_axis_name;
+
+use crate::near_names::near;
+use crate::parallel::in_parallel;
+
+/// Coordinate on an axis where nothing is known.
+const MIDDLE: f64 = 50.0;
+/// Meaning of 0 and of 100 on a dimension of a perceptual space.
+const DIMENSION_POLES: [&str; 2] = ["low", "high"];
+
+/// Coordinate of each texture on an axis, 0 to 100, indexed as the textures of the library.
+type Column = Vec<Option<f64>>;
+
+/// Where the coordinates on an axis come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AxisSource {
+    /// The positions, by the number of the coordinate, from 0.
+    Position(usize),
+    /// An attribute of the textures.
+    Attribute,
+    /// A feature of the vibration.
+    Signal(SignalAxis),
+}
+
+impl AxisSource {
+    /// Word for lists and scripts.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Position(_) => "positions",
+            Self::Attribute => "attributes",
+            Self::Signal(_) => "vibration",
+        }
+    }
+}
+
+/// Axis on which at least one texture has a coordinate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct KnownAxis {
+    /// Name of the axis.
+    pub name: String,
+    /// Where its coordinates come from.
+    pub source: AxisSource,
+    /// Number of textures with a coordinate, at least one.
+    pub n_known: usize,
+}
+
+/// Choice of axes with a name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AxisPreset {
+    /// Name to show.
+    pub name: &'static str,
+    /// Names of the axes, at most [`MOST_AXES`].
+    pub axes: Vec<String>,
+}
+
+/// Why a library cannot be placed on axes.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AxesError {
+    /// There is no axis, or there are too many.
+    #[error("a space has 1 to {MOST_AXES} axes, got {n}; choose fewer or more")]
+    Count {
+        /// Number of names.
+        n: usize,
+    },
+    /// An axis is named twice.
+    #[error("the axis \"{name}\" is named twice; name each axis once")]
+    Twice {
+        /// Name of the axis.
+        name: String,
+    },
+    /// No texture has a coordinate on an axis.
+    #[error("no texture has the axis \"{name}\"; {}choose from {}", meant(.near.as_ref()), .known.join(", "))]
+    Unknown {
+        /// Name of the axis.
+        name: String,
+        /// The most similar known name, if one is similar.
+        near: Option<String>,
+        /// Names of all axes of the library.
+        known: Vec<String>,
+    },
+    /// No texture has a coordinate on all axes.
+    #[error("no texture has all of the axes {}; leave out some of them", .axes.join(", "))]
+    Nothing {
+        /// Names of the axes.
+        axes: Vec<String>,
+    },
+}
+
+/// Evaluation of the axes of a library.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EvaluatedAxes {
+    /// Names of the candidates, to which the indices of the evaluation refer.
+    pub names: Vec<String>,
+    /// Errors with one axis more at each step.
+    pub found: AxisEvaluation,
+}
+
+/// Returns the axes that a library knows, each name once: those of its positions, then its other attributes, then features of the
+/// vibration.
+pub fn known_axes(library: &Library) -> Vec<KnownAxis> {
+    known_columns(library).into_iter().map(|(axis, _)| axis).collect()
+}
+
+/// The axes that a library knows, with the coordinates of the textures.
+fn known_columns(library: &Library) -> Vec<(KnownAxis, Column)> {
+    let attributes = library.textures.iter().filter_map(|texture| texture.attributes.as_ref());
+    let attributes = attributes.flat_map(|attributes| &attributes.values).map(|of| of.name.as_str());
+    let mut known: Vec<(KnownAxis, Column)> = Vec::new();
+    let mut add = |name: &str, source: AxisSource, column: Column| {
+        let n_known = column.iter().flatten().count();
+        if n_known > 0 && known.iter().all(|(axis, _)| axis.name != name) {
+            known.push((KnownAxis { name: name.to_owned(), source, n_known }, column));
+        }
+    };
+    let mut names: Vec<&str> = library.axis_names();
+    for name in attributes {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    for name in names {
+        if let Some((source, column)) = stated_column(library, name) {
+            add(name, source, column);
+        }
+    }
+    let features = in_parallel(library.textures.len(), |texture| SignalAxis::all_of(model(library, texture)));
+    for (index, axis) in SignalAxis::ALL.into_iter().enumerate() {
+        let column = features.iter().map(|of_texture| of_texture[index]).collect();
+        add(axis.name(), AxisSource::Signal(axis), column);
+    }
+    known
+}
+
+/// Returns the coordinate of each texture on an axis, 0 to 100; `None` if no texture has one. A feature of the vibration takes
+/// about a millisecond for each texture.
+pub fn axis_values(library: &Library, name: &str) -> Option<Vec<Option<f64>>> {
+    column(library, name).map(|(_, column)| column)
+}
+
+/// Where the coordinates on an axis come from, and the coordinate of each texture; `None` if no texture has one.
+fn column(library: &Library, name: &str) -> Option<(AxisSource, Column)> {
+    stated_column(library, name).or_else(|| {
+        let axis = SignalAxis::from_name(name)?;
+        let column = in_parallel(library.textures.len(), |texture| axis.of(model(library, texture)));
+        column.iter().any(Option::is_some).then_some((AxisSource::Signal(axis), column))
+    })
+}
+
+/// As [`column`], without features of the vibration.
+fn stated_column(library: &Library, name: &str) -> Option<(AxisSource, Column)> {
+    let all = |source: AxisSource, of: &dyn Fn(&TextureEntry) -> Option<f64>| {
+        let column: Column = library.textures.iter().map(of).collect();
+        column.iter().any(Option::is_some).then_some((source, column))
+    };
+    let of_positions = library
+        .axis_names()
+        .iter()
+        .position(|axis| *axis == name)
+        .and_then(|axis| all(AxisSource::Position(axis), &|texture| texture.at()?.get(axis)));
+    let plain = plain_axis_name(name);
+    of_positions.or_else(|| all(AxisSource::Attribute, &|texture| texture.attributes.as_ref()?.get(plain)))
+}
+
+fn model(library: &Library, texture: usize) -> &TextureModel {
+    &library.textures[texture].model
+}
+
+/// Returns the meaning of 0 and of 100 on an axis: the poles of an attribute, of which the second is empty if its name is one
+/// word, or those of a feature of the vibration.
+pub fn axis_poles(name: &str) -> [String; 2] {
+    let plain = plain_axis_name(name);
+    match SignalAxis::from_name(name) {
+        Some(axis) => axis.poles().map(str::to_owned),
+        None if is_dimension_name(plain) => DIMENSION_POLES.map(str::to_owned),
+        None => poles(plain),
+    }
+}
+
+/// Returns the choices of axes of the papers that a library knows: the two axes of the authoring paper, and the five attributes of
+/// the CNN-LSTM paper, of which the first two are those of the canvas.
+pub fn presets(library: &Library) -> Vec<AxisPreset> {
+    let preset = |name: &'static str, axes: &[&str]| AxisPreset {
+        name,
+        axes: axes.iter().map(|axis| (*axis).to_owned()).collect(),
+    };
+    let is_known = |preset: &AxisPreset| preset.axes.iter().all(|name| column(library, name).is_some());
+    let all = [preset("authoring paper", &USUAL_AXES), preset("CNN-LSTM paper", &ATTRIBUTES)];
+    all.into_iter().filter(is_known).collect()
+}
+
+/// Returns the library with positions on these axes, which its `axes` then name. A texture without a coordinate on one of them has
+/// no position. With the axes of its positions, the library stays as it is.
+///
+/// The label source of a position is that of its first axis that is no feature of the vibration, or else physical. Standard
+/// deviations are kept if the first two axes stay.
+///
+/// # Errors
+/// See [`AxesError`].
+pub fn placed_on(library: &Library, axes: &[String]) -> Result<Library, AxesError> {
+    if is_own(library, axes) {
+        return Ok(library.clone());
+    }
+    let (places, names) = places_and_names(library, axes)?;
+    Ok(library.clone().with_places(places, names))
+}
+
+/// Returns the position of each texture on these axes, as [`placed_on`] gives them to the library.
+///
+/// # Errors
+/// See [`AxesError`].
+pub fn places_on(library: &Library, axes: &[String]) -> Result<Vec<Option<Place>>, AxesError> {
+    if is_own(library, axes) {
+        return Ok(library.textures.iter().map(|texture| texture.place).collect());
+    }
+    places_and_names(library, axes).map(|(places, _)| places)
+}
+
+fn is_own(library: &Library, axes: &[String]) -> bool {
+    library.axis_names().iter().eq(axes)
+}
+
+/// Positions of the textures on axes, and the names of these as a library states them.
+fn places_and_names(
+    library: &Library,
+    axes: &[String],
+) -> Result<(Vec<Option<Place>>, Vec<String>), AxesError> {
+    if !(1..=MOST_AXES).contains(&axes.len()) {
+        return Err(AxesError::Count { n: axes.len() });
+    }
+    let (mut columns, mut names): (Vec<(AxisSource, Column)>, Vec<String>) = (Vec::new(), Vec::new());
+    for name in axes {
+        let (source, column) = column(library, name).ok_or_else(|| unknown(library, name))?;
+        let plain = match source {
+            AxisSource::Signal(axis) => axis.name(),
+            AxisSource::Position(_) | AxisSource::Attribute => plain_axis_name(name),
+        };
+        // A file of the library would be refused.
+        if names.iter().any(|other| other.eq_ignore_ascii_case(plain)) {
+            return Err(AxesError::Twice { name: plain.to_owned() });
+        }
+        names.push(plain.to_owned());
+        columns.push((source, column));
+    }
+    let mut first = columns.iter().take(2).map(|(source, _)| *source);
+    let keeps_deviation = (0..2).all(|axis| first.next() == Some(AxisSource::Position(axis)));
+    let place = |(index, texture): (usize, &TextureEntry)| {
+        let coordinates: Option<Vec<f64>> = columns.iter().map(|(_, column)| column[index]).collect();
+        let at = SpacePoint::of(&coordinates?).ok()?;
+        let stated = columns.iter().find_map(|(source, _)| match source {
+            AxisSource::Position(_) => texture.label_source(),
+            AxisSource::Attribute => texture.attributes.as_ref().map(|attributes| attributes.source),
+            AxisSource::Signal(_) => None,
+        });
+        let deviation = texture.place.and_then(|place| place.deviation).filter(|_| keeps_deviation);
+        Some(Place { deviation, ..Place::new(at, stated.unwrap_or(LabelSource::PhysicalLabels)) })
+    };
+    let places: Vec<Option<Place>> = library.textures.iter().enumerate().map(place).collect();
+    if places.iter().all(Option::is_none) {
+        return Err(AxesError::Nothing { axes: names });
+    }
+    Ok((places, names))
+}
+
+fn unknown(library: &Library, name: &str) -> AxesError {
+    let known: Vec<String> = known_axes(library).into_iter().map(|axis| axis.name).collect();
+    let near = near(known.iter().map(String::as_str), name).first().map(|near| (*near).to_owned());
+    AxesError::Unknown { name: name.to_owned(), near, known }
+}
+
+fn meant(near: Option<&String>) -> String {
+    near.map_or_else(String::new, |near| format!("did you mean \"{near}\"? Otherwise, "))
+}
+
+/// Returns a point of the axes `from` on the axes `to`. It keeps its coordinates on axes that stay. On others, it has the local
+/// mean of the textures over the axes `from` ([`local_mean`]), or the middle where that is unknown. `library` has its own
+/// positions, or those on the axes `from`.
+pub fn moved_to_axes(library: &Library, at: SpacePoint, from: &[String], to: &[String]) -> SpacePoint {
+    let at = at.on(from.len());
+    // Without positions, no local mean is known.
+    let places = places_on(library, from).unwrap_or_default();
+    let positions: Vec<Option<SpacePoint>> = places.into_iter().map(|place| Some(place?.at)).collect();
+    let coordinate = |name: &String| {
+        let kept = from.iter().position(|axis| axis == name).and_then(|axis| at.get(axis));
+        let mean = || local_mean(&positions, &axis_values(library, name)?, at);
+        kept.or_else(mean).unwrap_or(MIDDLE)
+    };
+    let coordinates: Vec<f64> = to.iter().map(coordinate).collect();
+    SpacePoint::of(&coordinates).unwrap_or_else(|_| at.on(to.len()))
+}
+
+/// Evaluates what axes add to a space: those of `first`, in this order, then those of `candidates`, or else all that the library
+/// knows ([`evaluate_axes`]). `on_progress` receives the number of finished parts and their total; returning `false` stops the
+/// evaluation.
+///
+/// # Errors
+/// No texture has one of the axes, one of `first` is named twice or there are too many, too few textures have all axes, or the
+/// evaluation was stopped.
+pub fn evaluate(
+    library: &Library,
+    first: &[String],
+    candidates: Option<&[String]>,
+    on_progress: &mut dyn FnMut(usize, usize) -> bool,
+) -> anyhow::Result<EvaluatedAxes> {
+    let known = known_columns(library);
+    let of_name = |name: &String| {
+        let known = known.iter().find(|(axis, _)| axis.name == *name).map(|(_, column)| column.clone());
+        let values = known.or_else(|| axis_values(library, name)).ok_or_else(|| unknown(library, name))?;
+        Ok(AxisCandidate { name: name.clone(), values })
+    };
+    let mut names: Vec<String> = first.to_vec();
+    let all = || known.iter().map(|(axis, _)| axis.name.clone()).collect::<Vec<String>>();
+    for name in candidates.map_or_else(all, <[String]>::to_vec) {
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    let candidates = names.iter().map(of_name).collect::<Result<Vec<AxisCandidate>, AxesError>>()?;
+    // A name twice is the same candidate twice, which the evaluation refuses.
+    let first: Vec<usize> =
+        first.iter().filter_map(|name| names.iter().position(|other| other == name)).collect();
+    let models: Vec<&TextureModel> = library.textures.iter().map(|texture| &texture.model).collect();
+    let found = evaluate_axes(&models, &candidates, &first, on_progress)?;
+    Ok(EvaluatedAxes { names, found })
+}
+
+#[cfg(test)]
+mod tests;
