@@ -1,10 +1,11 @@
-//! Mathematics independent of haptics: random numbers, statistics, regression and plane geometry.
+//! Mathematics independent of haptics: random numbers, statistics, hypothesis tests, regression and plane geometry.
 //!
 //! Input: slices and matrices of `f64`. Output: numbers, fitted models and triangulations.
 
 pub mod birge;
 pub mod class_distance;
 pub mod gaussian_process;
+pub mod hypothesis_tests;
 pub mod isotonic;
 pub mod least_squares;
 pub mod minimize;

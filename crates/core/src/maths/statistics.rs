@@ -1,8 +1,10 @@
-//! Means, correlations, quantiles, and the F, t and binomial distributions.
+//! Means, correlations, quantiles, and the F, t, χ² and binomial distributions.
 //!
-//! Tail probabilities use the regularized incomplete beta function (Abramowitz and Stegun 26.5.28, 26.6.2, 26.7.1).
+//! Tail probabilities use the regularized incomplete beta function (Abramowitz and Stegun 26.5.28, 26.6.2, 26.7.1), and
+//! that of χ² the regularized incomplete gamma function (26.4.19).
 
 use statrs::function::beta::{beta_reg, inv_beta_reg};
+use statrs::function::gamma::gamma_ur;
 
 /// Ratio of the centered to the raw sum of squares below which a column counts as constant; equal numbers leave this
 /// much rounding error.
@@ -86,6 +88,17 @@ pub fn t_quantile_two_sided(probability: f64, dof: f64) -> f64 {
     f_quantile_above(probability, 1.0, dof).sqrt()
 }
 
+/// Probability that a χ²-distributed variable with `dof` degrees of freedom (above 0) exceeds `chi_squared`.
+pub fn chi_squared_upper_tail(chi_squared: f64, dof: f64) -> f64 {
+    if chi_squared <= 0.0 {
+        return 1.0;
+    }
+    if chi_squared.is_infinite() {
+        return 0.0;
+    }
+    gamma_ur(0.5 * dof, 0.5 * chi_squared)
+}
+
 /// Probability of at least `n_right` correct answers in `n_trials`, if each is correct with probability `chance` (0..1,
 /// ends excluded). This is the upper tail of the binomial distribution (Abramowitz and Stegun 26.5.24); it is 1 if
 /// `n_right` is 0.
@@ -111,8 +124,8 @@ pub fn quantile(values: &[f64], rank: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::{
-        binomial_upper_tail, correlation, dot, f_quantile_above, f_upper_tail, is_constant, quantile,
-        t_quantile_two_sided,
+        binomial_upper_tail, chi_squared_upper_tail, correlation, dot, f_quantile_above, f_upper_tail,
+        is_constant, quantile, t_quantile_two_sided,
     };
 
     /// Compares with the sum of the binomial terms, computed by their recurrence.
@@ -145,6 +158,31 @@ mod tests {
             assert!((f_upper_tail(f, 1.0, 2.0) - closed).abs() < 1e-12, "{f}");
         }
         assert_eq!((f_upper_tail(0.0, 1.0, 3.0), f_upper_tail(f64::INFINITY, 1.0, 3.0)), (1.0, 0.0));
+    }
+
+    #[test]
+    fn the_chi_squared_tail_is_its_poisson_sum() {
+        // With 2 m degrees of freedom, P(χ² > x) is the probability of fewer than m events at a rate of x / 2.
+        for x in [1e-9_f64, 0.3, 4.0, 30.0, 200.0] {
+            let mut term = (-0.5 * x).exp();
+            let mut sum = 0.0;
+            for m in 1..=10 {
+                sum += term;
+                term *= 0.5 * x / f64::from(m);
+                let tail = chi_squared_upper_tail(x, 2.0 * f64::from(m));
+                assert!(
+                    (tail - sum).abs() < 1e-12,
+                    "{x}, {} degrees of freedom: {tail}, expected {sum}",
+                    2 * m
+                );
+            }
+        }
+        // With 1 degree of freedom, x is the square of a normal variable; the limit of F.
+        assert!((chi_squared_upper_tail(3.841_458_820_694_124, 1.0) - 0.05).abs() < 1e-12);
+        assert_eq!(
+            (chi_squared_upper_tail(0.0, 3.0), chi_squared_upper_tail(f64::INFINITY, 3.0)),
+            (1.0, 0.0)
+        );
     }
 
     #[test]
