@@ -3,8 +3,8 @@
 use anyhow::bail;
 use shagreen_core::words::counted;
 use shagreen_formats::library::Library;
-use shagreen_formats::project::plain_axis_name;
-use shagreen_studio::axes::placed_on;
+use shagreen_formats::project::{Project, plain_axis_name};
+use shagreen_studio::axes::placed_with;
 
 use crate::cli::axis_name::{axis_name, axis_names};
 use crate::cli::output::{self, Usage};
@@ -20,17 +20,22 @@ pub(crate) struct AxesArgs {
 }
 
 impl AxesArgs {
-    /// Returns the textures with positions on the axes of the arguments. If the arguments give none, the axes are `own`, or
-    /// else those of the library, and after them all others that points name.
+    /// Whether the arguments name no axes.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.axes.is_empty()
+    }
+
+    /// Returns the textures with positions on the axes of the arguments. If the arguments give none, the axes are those of the
+    /// project, or else those of the library, and after them all others that points name.
     pub(crate) fn place(
         &self,
         library: Library,
-        own: Option<&[String]>,
+        project: Option<&Project>,
         points: &[&PointArg],
     ) -> anyhow::Result<Library> {
         let of_library: Vec<String> = library.axis_names().into_iter().map(str::to_owned).collect();
-        let mut axes = if self.axes.is_empty() {
-            own.map_or_else(|| of_library.clone(), <[String]>::to_vec)
+        let mut axes = if self.is_empty() {
+            project.and_then(|project| project.axes.clone()).unwrap_or_else(|| of_library.clone())
         } else {
             axis_names(&library, &self.axes)
         };
@@ -39,7 +44,7 @@ impl AxesArgs {
             if axes.iter().any(|axis| plain_axis_name(axis) == plain_axis_name(&name)) {
                 continue;
             }
-            if !self.axes.is_empty() {
+            if !self.is_empty() {
                 bail!(Usage(format!(
                     "\"{name}\" is not one of the axes {}; add it to --axes, or leave --axes out",
                     axes.join(", ")
@@ -50,7 +55,8 @@ impl AxesArgs {
         if axes == of_library {
             return Ok(library);
         }
-        let placed = placed_on(&library, &axes)?;
+        let added = project.map(|project| project.coordinates.clone()).unwrap_or_default();
+        let placed = placed_with(&library, &axes, &added)?;
         note_unplaced(&library, &placed);
         Ok(placed)
     }

@@ -7,16 +7,15 @@ use shagreen_core::space::authoring::Blending;
 use shagreen_core::space::leave_one_out::{
     LeaveOneOut, LeaveOneOutError, Method, Plan, SignalPlan, Summary, leave_one_out,
 };
-use shagreen_core::space::signal_axes::SignalAxis;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::words::counted;
-use shagreen_formats::axes_report::SIGNAL_AXES_NOTE;
+use shagreen_formats::axes_report::signal_axes_note;
 use shagreen_formats::evaluation_report::{
     TABLE, best, evaluation_figures, evaluation_report, evaluation_source, figure_name, method_id,
     position_caveat,
 };
-use shagreen_formats::library::Library;
+use shagreen_formats::library::{Library, USUAL_AXES};
 
 use crate::cli::axes_args::AxesArgs;
 use crate::cli::library_args::LibraryArgs;
@@ -30,10 +29,10 @@ use shagreen_studio::file;
 /// Removes each texture in turn, interpolates a texture at its position from the others, and compares the spectra of
 /// the two.
 ///
-/// Only textures strictly inside the convex hull of the others are evaluated. With more than two axes (--axes) nearly all
-/// textures lie on the hull, so all are evaluated. Spectra are compared at nine combinations of speed and force, in 40
-/// frequency channels (20 to 480 Hz). The baseline is a copy of the nearest texture; interpolation should have a lower
-/// error. The errors are computed from signals, not from human ratings.
+/// Only textures strictly inside the convex hull of the others are evaluated; on one axis (--axes), all but those at its
+/// ends. With more than two axes nearly all textures lie on the hull, so all are evaluated. Spectra are compared at nine
+/// combinations of speed and force, in 40 frequency channels (20 to 480 Hz). The baseline is a copy of the nearest
+/// texture; interpolation should have a lower error. The errors are computed from signals, not from human ratings.
 ///
 /// If positions were computed from the textures themselves (physical labels, estimates), the position of a left-out
 /// texture contains part of its answer. The shape error excludes the overall level: it compares the shape of the
@@ -69,6 +68,9 @@ pub(crate) struct Args {
 /// One mode or all modes.
 #[derive(Clone, Debug)]
 struct Modes(Vec<Mode>);
+
+/// Note on errors with more than two axes.
+const OTHER_TEXTURES: &str = "These errors are not comparable with those of two axes, which exclude the textures on the convex hull. Compare numbers of axes with `shagreen evaluate axes`.";
 
 /// Value of --blend that selects every mode.
 const ALL: &str = "all";
@@ -109,7 +111,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let mut report = evaluation_report(&library, &measured);
     report["axes"] = library.axis_names().into();
-    report["axes_caveat"] = axes_caveat(&library).into();
+    report["axes_caveat"] = signal_axes_note(&library, library.axis_names()).into();
     if let Some(folder) = &args.figures {
         let figures = evaluation_figures(&library, &measured);
         let files: Vec<_> =
@@ -199,7 +201,11 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
         "NRS: 1 - error / distance between the two textures farthest apart on the first axis, averaged over textures.",
     ];
     lines.extend(notes.map(str::to_owned));
-    lines.extend([position_caveat(library), axes_caveat(library)].into_iter().flatten().map(str::to_owned));
+    let caveats = [position_caveat(library), signal_axes_note(library, library.axis_names())];
+    lines.extend(caveats.into_iter().flatten().map(str::to_owned));
+    if library.axis_names().len() > USUAL_AXES.len() {
+        lines.push(OTHER_TEXTURES.to_owned());
+    }
     if let Some(largest) = checks.map(|c| c.mean_difference_db).max_by(f64::total_cmp) {
         lines.push(format!(
             "Model, signal: mean error of {}, computed from the models and from rendered signals. For one texture, the two differ by {largest:.2} dB on average at most.",
@@ -208,12 +214,6 @@ fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> S
     }
     lines.extend(figures.map(|folder| format!("Figures: {}", folder.display())));
     lines.join("\n")
-}
-
-/// Limit of the result: whether an axis is computed from the vibration.
-fn axes_caveat(library: &Library) -> Option<&'static str> {
-    let is_computed = library.axis_names().into_iter().any(|name| SignalAxis::from_name(name).is_some());
-    is_computed.then_some(SIGNAL_AXES_NOTE)
 }
 
 /// Returns how many textures are not evaluated. With more than two axes, those on the convex hull are evaluated too.

@@ -3,14 +3,17 @@
 use serde_json::{Value, json};
 use shagreen_core::space::axis_evaluation::AxisStep;
 use shagreen_core::words::counted;
-use shagreen_formats::axes_report::{SIGNAL_AXES_NOTE, axes_report, nothing_helps};
+use shagreen_formats::axes_report::{axes_report, nothing_helps, signal_axes_note};
 use shagreen_formats::library::Library;
-use shagreen_studio::axes::{AxisSource, EvaluatedAxes, KnownAxis, evaluate, known_axes};
+use shagreen_studio::axes::{EvaluatedAxes, KnownAxis, evaluate, known_axes};
 
 use crate::cli::axis_name::axis_names;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
 use crate::cli::progress::Progress;
+
+/// Least width of the names of rows, in characters.
+const LABEL_WIDTH: usize = 22;
 
 /// Evaluates what further axes add to the space: attributes of the textures, and axes that are computed from their
 /// vibration.
@@ -59,11 +62,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     }
     let evaluated = evaluated?;
     let mut report = axes_report(&library, &evaluated.names, &evaluated.found);
-    let known = known_axes(&library);
     report["first"] = json!(first);
-    report["candidates"] = candidates_json(&known, &evaluated, first.len());
+    report["candidates"] = candidates_json(&known_axes(&library), &evaluated, first.len());
     report["chosen"] = chosen(&evaluated, &first).into();
-    output::print(args.json, &report, || table(&library, &known, &evaluated));
+    output::print(args.json, &report, || table(&library, &evaluated, &first));
     Ok(())
 }
 
@@ -91,8 +93,11 @@ fn chosen(evaluated: &EvaluatedAxes, first: &[String]) -> Vec<String> {
     first.iter().cloned().chain(names).collect()
 }
 
-fn table(library: &Library, known: &[KnownAxis], evaluated: &EvaluatedAxes) -> String {
+fn table(library: &Library, evaluated: &EvaluatedAxes, first: &[String]) -> String {
     let EvaluatedAxes { names, found } = evaluated;
+    let labels: Vec<String> =
+        found.steps.iter().enumerate().map(|(at, step)| label(at, &names[step.added], first)).collect();
+    let width = labels.iter().map(|label| label.chars().count()).fold(LABEL_WIDTH, usize::max);
     let mut lines = vec![
         format!(
             "{}: {}; axes chosen without the predicted textures (nested); the errors are computed, not rated by people",
@@ -100,11 +105,11 @@ fn table(library: &Library, known: &[KnownAxis], evaluated: &EvaluatedAxes) -> S
             counted(found.textures.len(), "texture")
         ),
         format!(
-            "  {:>4}  {:<22} {:>9} {:>6} {:>12} {:>6} {:>16}  helps",
+            "  {:>4}  {:<width$} {:>9} {:>6} {:>12} {:>6} {:>16}  helps",
             "axes", "added", "error", "rank 1", "nearest", "rank 1", "gain"
         ),
     ];
-    lines.extend(found.steps.iter().map(|step| row(&names[step.added], step)));
+    lines.extend(found.steps.iter().zip(&labels).map(|(step, label)| row(label, width, step)));
     let notes = [
         "Error: RMS difference of channel levels over 9 speed-force pairs and 40 channels, averaged over textures; nearest: that of a copy of the nearest texture.",
         "Gain: decrease of the error, ± standard error, compared with the last number of axes that helped. It helps if the gain is more than twice its standard error.",
@@ -116,13 +121,20 @@ fn table(library: &Library, known: &[KnownAxis], evaluated: &EvaluatedAxes) -> S
         lines.push(format!("Left out, because too few textures have a value: {}.", left_out.join(", ")));
     }
     lines.extend(nothing_helps(found).map(str::to_owned));
-    let is_computed =
-        |axis: &&KnownAxis| matches!(axis.source, AxisSource::Signal(_)) && names.contains(&axis.name);
-    lines.extend(known.iter().find(is_computed).map(|_| SIGNAL_AXES_NOTE.to_owned()));
+    lines.extend(signal_axes_note(library, names.iter().map(String::as_str)).map(str::to_owned));
     lines.join("\n")
 }
 
-fn row(name: &str, step: &AxisStep) -> String {
+/// Returns the name of a row: the axes that come first in the first row, and the axis that is added in the others.
+fn label(at: usize, added: &str, first: &[String]) -> String {
+    match (at, first) {
+        (0, []) => added.to_owned(),
+        (0, first) => first.join(", "),
+        _ => format!("+ {added}"),
+    }
+}
+
+fn row(label: &str, width: usize, step: &AxisStep) -> String {
     let gain = step
         .gain_db
         .map_or_else(|| "\u{2013}".to_owned(), |[gain, error]| format!("{gain:.2} ± {error:.2} dB"));
@@ -132,7 +144,7 @@ fn row(name: &str, step: &AxisStep) -> String {
         Some(false) => "no",
     };
     let line = format!(
-        "  {:>4}  {name:<22} {:6.2} dB {:4.0} % {:9.2} dB {:4.0} % {gain:>16}  {helps}",
+        "  {:>4}  {label:<width$} {:6.2} dB {:4.0} % {:9.2} dB {:4.0} % {gain:>16}  {helps}",
         step.n_axes,
         step.error_db_mean,
         100.0 * step.rank1,

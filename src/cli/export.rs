@@ -11,7 +11,7 @@ use shagreen_studio::export::{
     self, Batch, ExistingFiles, ExportFormat, ExportOutcome, all_lost, export_all,
 };
 use shagreen_studio::near_names::unknown_texture;
-use shagreen_studio::project::{load_project, textures_on_axes};
+use shagreen_studio::project::{load_project, textures_by_id};
 use shagreen_studio::replace::refuse_inputs;
 
 use crate::cli::library_args::LibraryArgs;
@@ -125,7 +125,7 @@ impl Args {
     /// Loads the textures to choose from.
     fn load(&self) -> anyhow::Result<Library> {
         match &self.project {
-            Some(path) => textures_on_axes(&load_project(path, &permitted_libraries(), &Printed)?),
+            Some(path) => textures_by_id(&load_project(path, &permitted_libraries(), &Printed)?, &Printed),
             None => self.library.load(),
         }
     }

@@ -81,7 +81,7 @@ fn interpolated_at(library: &Library, at: SpacePoint) -> anyhow::Result<TextureM
     let authored = authoring
         .author(at, &blending)
         .context("the starter library has no positions; reinstall Shagreen")?;
-    if authored.location.clamped {
+    if authored.location.clamped && at.most_different_axis(authored.location.at).is_some() {
         output::note(&format!(
             "the predicted position {at} lies outside the convex hull of the textures; the nearest point of the hull is used"
         ));

@@ -42,7 +42,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 }
 
 fn known_axis(axis: &KnownAxis) -> Value {
-    json!({"name": axis.name, "source": axis.source.label(), "textures": axis.n_known})
+    json!({"name": axis.name, "source": axis.source.label(), "textures": axis.n_known, "range": axis.range})
 }
 
 fn describe(library: &Library, texture: &TextureEntry) -> Value {
@@ -116,9 +116,12 @@ fn table(library: &Library, known: &[KnownAxis]) -> String {
     let n_textures = counted(library.textures.len(), "texture");
     let mut lines =
         vec![format!("{}: {n_textures}; axes: {}", library.name, library.axis_names().join(", "))];
-    let in_words = |axis: &KnownAxis| format!("{} ({}, {})", axis.name, axis.source.label(), axis.n_known);
+    let in_words = |axis: &KnownAxis| {
+        let [low, high] = axis.range;
+        format!("{} ({}, {}, {low:.0} to {high:.0})", axis.name, axis.source.label(), axis.n_known)
+    };
     let known: Vec<String> = known.iter().map(in_words).collect();
-    lines.push(format!("known axes (source, textures): {}", known.join(", ")));
+    lines.push(format!("known axes (source, textures, range): {}", known.join(", ")));
     let sources = library.space_report.as_ref().and_then(axis_sources);
     lines.extend(sources.map(|sources| format!("positions: {sources}")));
     lines.extend(library.textures.iter().map(line));

@@ -2,9 +2,10 @@
 
 use anyhow::bail;
 use serde_json::{Value, json};
-use shagreen_core::space::{SpacePoint, local_mean};
+use shagreen_core::space::{SpacePoint, with_local_means};
 use shagreen_core::words::counted;
 use shagreen_formats::library::Library;
+use shagreen_formats::named_point::named_coordinates;
 use shagreen_formats::project::plain_axis_name;
 use shagreen_studio::axes::axis_poles;
 
@@ -23,8 +24,6 @@ pub(crate) enum PointArg {
 /// How a point is written.
 const HOW: &str =
     "write coordinates as in 30,70, or names and coordinates as in rough-smooth=30,hard-soft=70";
-/// Coordinate on an axis whose local mean is unknown.
-const MIDDLE: f64 = 50.0;
 
 /// Parses a point: `30,70,45`, or `rough-smooth=30,sticky-slippery=45`.
 pub(crate) fn parse_point(text: &str) -> Result<PointArg, String> {
@@ -111,29 +110,13 @@ fn named_point(named: &[(String, f64)], library: &Library) -> anyhow::Result<Spa
             bail!(Usage(format!("{name} is given twice; give each axis once")));
         }
     }
-    let given = coordinates.clone();
-    for (axis, coordinate) in coordinates.iter_mut().enumerate() {
-        if coordinate.is_none() {
-            let mean = mean_near(library, &given, axis);
-            output::note(&format!("{} is not given; its local mean is {mean:.1}", axes[axis]));
-            *coordinate = Some(mean);
+    let whole = with_local_means(&library.positions(), &coordinates);
+    for ((axis, given), mean) in axes.iter().zip(&coordinates).zip(&whole) {
+        if given.is_none() {
+            output::note(&format!("{axis} is not given; its local mean is {mean:.1}"));
         }
     }
-    Ok(SpacePoint::of(&coordinates.into_iter().flatten().collect::<Vec<_>>())?)
-}
-
-/// Returns the local mean on an axis, at the coordinates that are known on other axes (at least one).
-fn mean_near(library: &Library, known: &[Option<f64>], axis: usize) -> f64 {
-    let on_known = |place: SpacePoint| {
-        let pairs = place.coordinates().iter().zip(known);
-        let coordinates: Vec<f64> = pairs.filter(|(_, known)| known.is_some()).map(|(at, _)| *at).collect();
-        SpacePoint::of(&coordinates).ok() // `known` has at least one coordinate, and no more than a place.
-    };
-    let places: Vec<Option<SpacePoint>> =
-        library.positions().into_iter().map(|place| on_known(place?)).collect();
-    let values: Vec<Option<f64>> = library.positions().into_iter().map(|place| place?.get(axis)).collect();
-    let at = SpacePoint::of(&known.iter().flatten().copied().collect::<Vec<_>>());
-    at.ok().and_then(|at| local_mean(&places, &values, at)).unwrap_or(MIDDLE)
+    Ok(SpacePoint::of(&whole)?)
 }
 
 /// Checks that a coordinate lies on its axis.
@@ -147,9 +130,7 @@ fn check(axis: &str, value: f64) -> anyhow::Result<()> {
 
 /// Returns the coordinates of a point by the names of the axes, as JSON; null without a point.
 pub(crate) fn named_json(library: &Library, at: Option<SpacePoint>) -> Value {
-    let Some(at) = at else { return Value::Null };
-    let pairs = library.axis_names().into_iter().zip(at.coordinates());
-    pairs.map(|(name, value)| (name.to_owned(), json!(*value))).collect()
+    json!(at.map(|at| named_coordinates(library.axis_names(), at)))
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use shagreen_core::texture::tap::TAP_AMPLITUDES_MPS2;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::library::Library;
+use shagreen_formats::named_point::named_coordinates;
 use shagreen_formats::wav::{self, ParentV1, SidecarV1, sidecar_path, write_wav_as};
 use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
 use shagreen_studio::export::{Rendered, lost_in_wav, lost_of_tap};
@@ -238,6 +239,7 @@ fn sidecar(args: &Args, library: &Library, chosen: &Sound, motion: &Motion, rate
     SidecarV1 {
         texture: chosen.texture.clone(),
         at: chosen.at_json(),
+        at_named: chosen.at.map(|at| named_coordinates(library.axis_names(), at)),
         clamped: chosen.clamped,
         extrapolated: chosen.extrapolated,
         blend: chosen.mode.id().to_owned(),

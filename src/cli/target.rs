@@ -8,11 +8,11 @@ use shagreen_core::texture::shape::Shape;
 use shagreen_formats::library::Library;
 use shagreen_formats::project::Project;
 use shagreen_studio::near_names::unknown_texture;
-use shagreen_studio::project::{find_authored, load_project, textures_of};
+use shagreen_studio::project::{find_authored, load_project, textures_by_id, textures_of};
 use shagreen_studio::sound::Sound;
 
 use crate::cli::axes_args::AxesArgs;
-use crate::cli::blending::BlendArgs;
+use crate::cli::blending::{BlendArgs, note_lost_pins};
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed};
 use crate::cli::own_folder::permitted_libraries;
@@ -83,10 +83,17 @@ impl SoundArgs {
             .as_deref()
             .map(|path| load_project(path, &permitted_libraries(), &Printed))
             .transpose()?;
+        if self.target.texture.is_some() && !self.axes.is_empty() {
+            output::note("the axes of --axes do not change the texture of --texture");
+        }
         let points: Vec<&PointArg> = self.target.at.iter().collect();
         let mut library = match &project {
             Some(project) => {
-                let placed = self.axes.place(textures_of(project)?, project.axes.as_deref(), &points)?;
+                let placed = if self.target.texture.is_some() && self.axes.is_empty() {
+                    textures_by_id(project, &Printed)?
+                } else {
+                    self.axes.place(textures_of(project)?, Some(project), &points)?
+                };
                 self.textures_in(project, &placed)?
             }
             None => self.axes.place(self.library.load()?, None, &points)?,
@@ -119,7 +126,9 @@ impl SoundArgs {
         let (point, blending, own_shape) = match (&self.target.authored, project) {
             (Some(name), Some(project)) => {
                 let authored = find_authored(project, name)?;
-                let blend = authored.blend.in_space(authored.at.n_axes());
+                // The library of the project may have other axes than when the texture was authored.
+                let n_axes = library.axis_names().len();
+                let blend = authored.blend.in_space(n_axes);
                 if blend.mode != authored.blend.mode {
                     output::note(&format!(
                         "\"{name}\" has mode {}, which needs a space with one or two axes; it is interpolated in mode {}",
@@ -127,8 +136,9 @@ impl SoundArgs {
                         blend.mode.id()
                     ));
                 }
+                note_lost_pins(library, &blend);
                 let blending = blend.blending(|id| library.index_of(id));
-                (Some(authored.at), blending, authored.shape)
+                (Some(authored.at.on(n_axes)), blending, authored.shape)
             }
             _ => (*at, self.blending.blending(library)?, Shape::default()),
         };

@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use serde_json::json;
-use shagreen_core::space::authoring::{Authoring, Blending};
-use shagreen_core::space::texture_path::{Along, AtEnd, MAX_KEYS, Route, Stop, TexturePath};
+use shagreen_core::space::SpacePoint;
+use shagreen_core::space::authoring::{Authored, Authoring, Blending};
+use shagreen_core::space::texture_path::{Along, AtEnd, Key, MAX_KEYS, Route, Stop, TexturePath};
 use shagreen_core::texture::shape::Shape;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{Library, Provenance, TextureEntry, read_library, write_library};
@@ -111,7 +112,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
 
 /// Number of textures on a path that lie outside the convex hull.
 struct HullCounts {
-    /// Textures that were moved to the nearest supported point.
+    /// Textures that were moved to the nearest supported point, farther than can be seen from displayed coordinates.
     n_clamped: usize,
     /// Textures that were extrapolated.
     n_extrapolated: usize,
@@ -119,11 +120,14 @@ struct HullCounts {
 
 impl HullCounts {
     fn of(authoring: &Authoring, path: &TexturePath, blending: &Blending) -> Self {
-        let authored: Vec<_> =
-            path.keys().iter().filter_map(|key| authoring.author(key.stop.at, blending)).collect();
+        let at = |key: &Key| Some((key.stop.at, authoring.author(key.stop.at, blending)?));
+        let authored: Vec<(SpacePoint, Authored)> = path.keys().iter().filter_map(at).collect();
+        let is_moved = |(at, authored): &&(SpacePoint, Authored)| {
+            authored.location.clamped && at.most_different_axis(authored.location.at).is_some()
+        };
         Self {
-            n_clamped: authored.iter().filter(|authored| authored.location.clamped).count(),
-            n_extrapolated: authored.iter().filter(|authored| authored.is_extrapolated).count(),
+            n_clamped: authored.iter().filter(is_moved).count(),
+            n_extrapolated: authored.iter().filter(|(_, authored)| authored.is_extrapolated).count(),
         }
     }
 

@@ -36,12 +36,14 @@ fn a_third_axis_gives_another_texture_and_order_and_names_the_same_one() {
     let moved = format!("{},{},{}", coordinates[0], coordinates[1], 0.5 * coordinates[2]);
     assert_ne!(psd(&bench, &format!("{THREE} --at {moved}"))["psd"], three["psd"]);
     let render = |point: &str| {
-        bench.json(&format!("render {point} --speed 100 --force 1 --seconds 0.2 -o out.wav"));
+        let said = bench.json(&format!("render {point} --speed 100 --force 1 --seconds 0.2 -o out.wav"));
         let sidecar: Value = serde_json::from_slice(&std::fs::read(bench.path("out.json")).unwrap()).unwrap();
+        assert_eq!((&sidecar["at"], &sidecar["at_named"]), (&said["at"], &said["at_named"]));
         (bench.wav("out.wav").0, sidecar["at"].clone())
     };
     let (sound, at) = render(&format!("{THREE} --at {ordered}"));
     assert_eq!(at, json!(coordinates));
+    assert_eq!(three["at_named"].as_object().unwrap().len(), 3);
     assert_ne!(render(&format!("--library simulated --at {},{}", coordinates[0], coordinates[1])).0, sound);
 }
 
@@ -63,6 +65,27 @@ fn the_two_axes_of_the_positions_by_name_change_no_sample() {
     let named = psd(&bench, "--at 45,40")["at_named"].clone();
     assert_eq!(named, json!({"rough-smooth": 45.0, "hard-soft": 40.0}));
     assert!(psd(&bench, "--texture cork")["at_named"].is_null());
+}
+
+#[test]
+fn a_note_says_that_axes_do_not_change_a_texture_of_the_library() {
+    let bench = Bench::new();
+    let said =
+        |axes: &str| bench.run(&format!("texture psd --texture cork {axes} --speed 80 --force 0.6 --json"));
+    let (plain, on_axes) = (said(""), said("--axes rough-smooth,centroid"));
+    assert_eq!((on_axes.code, &on_axes.stdout), (0, &plain.stdout), "{on_axes:?}");
+    let note = "note: the axes of --axes do not change the texture of --texture";
+    assert!(on_axes.stderr.contains(note) && !plain.stderr.contains(note), "{on_axes:?}");
+}
+
+/// The example of the guide plays inside the convex hull of the starter library.
+#[test]
+fn the_path_of_the_guide_lies_inside_the_hull() {
+    let page = include_str!("../../docs/guide/more-axes.md");
+    let line = page.lines().find(|line| line.starts_with("shagreen texture path")).expect("an example");
+    let bench = Bench::new();
+    let made = bench.json(line.trim_start_matches("shagreen "));
+    assert_eq!((&made["clamped"], &made["warnings"]), (&json!(0), &json!([])), "{made}");
 }
 
 #[test]
@@ -124,7 +147,10 @@ fn a_library_lists_the_axes_that_it_knows() {
     assert!(names(&known("--library simulated")).contains(&json!("sticky-slippery")));
     let said = bench.run("library list --axes tap-frequency").stdout;
     assert!(said.contains("axes: tap frequency") && said.contains("known axes"), "{said}");
-    assert!(said.contains("force exponent (vibration, 25)"), "{said}");
+    let range = starter[2]["range"].as_array().unwrap();
+    let [low, high] = [0, 1].map(|end| range[end].as_f64().unwrap());
+    assert!(0.0 < low && low < high && high < 100.0, "{range:?}");
+    assert!(said.contains(&format!("centroid (vibration, 25, {low:.0} to {high:.0})")), "{said}");
 }
 
 #[test]
@@ -259,7 +285,12 @@ fn an_evaluation_of_axes_is_a_table_that_says_what_helps() {
     let lines: Vec<&str> = said.stdout.lines().collect();
     assert!(lines[0].contains("25 textures") && lines[0].contains("not rated by people"), "{said:?}");
     assert!(lines[1].contains("rank 1") && lines[1].contains("helps"), "{said:?}");
-    assert!(lines[2].contains("hard-soft") && lines[3].contains("centroid"), "{said:?}");
+    assert!(lines[2].contains("2  rough-smooth, hard-soft "), "all axes that come first: {said:?}");
+    assert!(lines[3].contains("3  + centroid "), "{said:?}");
+    // The columns are aligned.
+    let end =
+        |line: &str, word: &str| line.chars().count() - line.rsplit(word).next().unwrap().chars().count();
+    assert_eq!(end(lines[2], " dB"), end(lines[1], "nearest"), "{said:?}");
     assert!(lines[3].contains('±') && lines[3].contains('%'), "{said:?}");
     assert!(said.stdout.contains("part of the answer"), "{said:?}");
 
@@ -275,9 +306,16 @@ fn an_evaluation_of_axes_is_a_table_that_says_what_helps() {
     let said = bench.run("evaluate axes --library l.json --candidates odd-even").stdout;
     assert!(said.contains("No further axis lowers the error"), "{said}");
     assert!(!said.contains("part of the answer"), "{said}");
+    // Nothing was evaluated, so nothing fails to help.
+    for what in ["--candidates rough-smooth", "--candidates hard-soft,rough-smooth"] {
+        let said = bench.run(&format!("evaluate axes {what}")).stdout;
+        assert!(said.contains("No further axis was evaluated: none is given"), "{said}");
+        assert!(!said.contains("lowers the error"), "{said}");
+    }
     let free = bench.json("evaluate axes --library l.json --candidates rough-smooth,odd-even --free");
     assert_eq!((&free["first"], &free["steps"][0]["n_axes"]), (&json!([]), &json!(1)));
     assert_eq!(free["chosen"][0], free["steps"][0]["axis"]);
+    assert!(!free["notes"].to_string().contains("part of the answer"), "{free}");
 
     bench.fails("evaluate axes --candidates warm-cold", 1, &["\"warm-cold\"", "centroid"]);
     bench.fails("evaluate axes --first centroid,centroid", 1, &["different"]);
@@ -306,8 +344,17 @@ fn leave_one_out_evaluates_the_field_on_three_axes() {
         1,
         &["mode paper interpolates in triangles", "choose mode field, or fewer axes"],
     );
+    // On one axis, only the textures at its ends are not evaluated.
+    let line = bench.json("evaluate leave-one-out --axes centroid --signals 0");
+    let [n_evaluated, n_ends] = ["textures", "on_hull"].map(|field| line[field].as_array().unwrap().len());
+    assert!(n_evaluated + n_ends == 25 && n_evaluated > 10 && n_ends >= 2, "{line}");
+    assert!(line["axes_caveat"].as_str().unwrap().contains("part of the answer"), "{line}");
     let computed =
         bench.run("evaluate leave-one-out --axes rough-smooth,hard-soft,centroid --signals 0").stdout;
     assert!(computed.contains("contains a part of the answer"), "{computed}");
     assert!(computed.contains("all are evaluated"), "{computed}");
+    assert!(computed.contains("not comparable with those of two axes"), "{computed}");
+    assert!(computed.contains("shagreen evaluate axes"), "{computed}");
+    let two = bench.run("evaluate leave-one-out --signals 0").stdout;
+    assert!(!two.contains("not comparable"), "{two}");
 }

@@ -96,6 +96,61 @@ fn where_the_library_of_a_project_lies_decides() {
     }
 }
 
+/// The window opens a project whose axes no texture has. Its textures can be selected by their identifiers, which needs no
+/// positions.
+#[test]
+fn a_texture_of_a_project_needs_none_of_its_axes() {
+    let bench = Bench::new();
+    bench.json("project new -o a.shagreen");
+    let mut project: Value =
+        serde_json::from_slice(&std::fs::read(bench.path("a.shagreen")).unwrap()).unwrap();
+    project["version"] = json!("1.3");
+    project["axes"] = json!(["warm-cold", "flat-bumpy", "centroid"]);
+    bench.write("a.shagreen", project.to_string());
+    let note = "note: no texture can be placed on the axes of the project (warm-cold, flat-bumpy, centroid)";
+    let psd = |what: &str| {
+        let said = bench.run(&format!("texture psd {what} --speed 100 --force 1 --json"));
+        assert_eq!(said.code, 0, "{said:?}");
+        (said.stdout, said.stderr.contains(note))
+    };
+    let (of_library, is_noted) = psd("--texture cork");
+    assert!(!is_noted);
+    assert_eq!(psd("--project a.shagreen --texture cork"), (of_library, true));
+    for out in ["--texture cork -o cork.xml", "--all -o models"] {
+        let said = bench.run(&format!("export --project a.shagreen --format hatt {out}"));
+        assert!(said.code == 0 && said.stderr.contains(note), "{said:?}");
+    }
+    // Points have coordinates on these axes.
+    for point in ["--at 1,2,3", "--authored 1"] {
+        let psd = format!("texture psd --project a.shagreen {point} --speed 100 --force 1");
+        bench.fails(&psd, 1, &["\"warm-cold\""]);
+    }
+}
+
+/// The library file of a project can get other axes; their number decides which modes interpolate.
+#[test]
+fn an_authored_texture_is_interpolated_on_the_axes_that_its_library_has_now() {
+    let bench = Bench::new();
+    bench.json("project new -o a.shagreen");
+    let mut project: Value =
+        serde_json::from_slice(&std::fs::read(bench.path("a.shagreen")).unwrap()).unwrap();
+    project["library"] = json!({"file": "l.json"});
+    project["authored"][0]["blend"]["mode"] = json!("shared");
+    bench.write("a.shagreen", project.to_string());
+    bench.write("l.json", shagreen_formats::starter::starter_bytes());
+    let psd = || {
+        let said = bench.run("texture psd --project a.shagreen --authored 1 --speed 100 --force 1 --json");
+        assert_eq!(said.code, 0, "{said:?}");
+        let found: Value = serde_json::from_str(&said.stdout).unwrap();
+        (found["at"].as_array().unwrap().len(), said.stderr.contains("has mode shared, which needs a space"))
+    };
+    assert_eq!(psd(), (2, false));
+    bench.json("library places --axes rough-smooth,hard-soft,centroid --out p.csv");
+    bench.json("space place --attributes p.csv --out three.json");
+    bench.write("l.json", std::fs::read(bench.path("three.json")).unwrap());
+    assert_eq!(psd(), (3, true));
+}
+
 /// A texture that was generated for one authored texture leaves the signals of the others as they are.
 #[test]
 fn a_second_generated_texture_leaves_the_first_authored_texture_as_it_is() {
@@ -132,4 +187,46 @@ fn a_second_generated_texture_leaves_the_first_authored_texture_as_it_is() {
         assert_eq!((&shown["joined"], &shown["own"]), (&json!(2), &json!(["first", "second"])));
         assert_ne!(rendered(&[first, generated("second", 50.4, false)]), before, "{mode}");
     }
+}
+
+/// An own texture has estimated coordinates on the axes that neither its attributes nor its vibration give.
+#[test]
+fn an_own_texture_is_rendered_on_chosen_axes_and_a_pin_without_effect_is_noted() {
+    let bench = Bench::new();
+    bench.json("project new -o a.shagreen");
+    let mut project: Value =
+        serde_json::from_slice(&std::fs::read(bench.path("a.shagreen")).unwrap()).unwrap();
+    let starter: Value = serde_json::from_slice(shagreen_formats::starter::starter_bytes()).unwrap();
+    let mut own = starter["textures"][0].clone();
+    own.as_object_mut().unwrap().remove("space");
+    (own["id"], own["own"]) = (json!("made"), json!(true));
+    let axes = "rough-smooth,hard-soft,centroid,flat-bumpy";
+    let list = bench.json(&format!("library list --library simulated --axes {axes}"));
+    let glass = list["textures"].as_array().unwrap().iter().find(|texture| texture["id"] == "glass").unwrap();
+    project["version"] = json!("1.3");
+    project["library"] = json!({"built_in": "simulated"});
+    project["axes"] = json!(axes.split(',').collect::<Vec<_>>());
+    let texture = &mut project["authored"][0];
+    (texture["rough_smooth"], texture["hard_soft"]) = (json!(33.0), json!(44.0));
+    // The vibration gives its centroid.
+    texture["further"] = json!([glass["at"][2], 55.0]);
+    texture["blend"]["locked"] = json!(["made", "gone"]);
+    let mut psd = |coordinates: Value| {
+        let mut own = own.clone();
+        own["coordinates"] = coordinates;
+        project["joined"] = json!([own]);
+        bench.write("a.shagreen", project.to_string());
+        let said = bench.run("texture psd --project a.shagreen --authored 1 --speed 100 --force 1 --json");
+        assert_eq!(said.code, 0, "{said:?}");
+        let found: Value = serde_json::from_str(&said.stdout).unwrap();
+        (found["parents"][0].clone(), said.stderr)
+    };
+    let (parent, said) = psd(json!({"rough-smooth": 33.0, "hard-soft": 44.0, "flat-bumpy": 55.0}));
+    assert!(parent["id"] == "made" && parent["weight"].as_f64().unwrap() > 0.999, "{parent}");
+    assert!(said.contains("the pin of \"gone\" has no effect: the project has no such texture"), "{said}");
+    assert!(!said.contains("the pin of \"made\""), "{said}");
+    let (parent, said) = psd(json!({"rough-smooth": 33.0, "hard-soft": 44.0}));
+    assert_ne!(parent["id"], "made");
+    let note = "note: the pin of \"made\" has no effect: it has no position on the axes";
+    assert!(said.contains(note) && said.contains("centroid, flat-bumpy"), "{said}");
 }

@@ -16,6 +16,7 @@ pub mod inspector;
 pub mod library_filter;
 pub mod library_panel;
 pub(crate) mod locks;
+pub(crate) mod lost_pins;
 pub(crate) mod new_texture;
 pub mod pad;
 pub mod prompt;

@@ -319,7 +319,7 @@ impl Command {
             Self::Redo => Entry::new("Redo").command_shift(Key::Z),
             Self::Show(workspace) => Entry::new(workspace.info().show).command(workspace.info().key),
             Self::OpenPalette => Entry::new("Find a command").command_shift(Key::P),
-            Self::Axes(AxesCommand::Open) => Entry::new(axes_words::COMMAND),
+            Self::Axes(AxesCommand::Open) => Entry::new(axes_words::BUTTON),
             Self::Axes(AxesCommand::Swap) => Entry::new(axes_words::SWAP),
             Self::TogglePathTool => Entry::new("Turn the path tool on or off").key(Key::P),
             Self::KeepPath => Entry::new("Add the path as a texture"),

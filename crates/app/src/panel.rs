@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use shagreen_core::space::SpacePoint;
+use shagreen_core::texture::blend::Mode;
 use shagreen_formats::project::{AuthoredTexture, Project};
 
 use crate::session::Session;
@@ -62,21 +63,31 @@ impl<'a> Panel<'a> {
         self.inspected().key == self.project.texture().key
     }
 
-    /// Point of the canvas with the further coordinates of the selected texture: the canvas shows a slice of the space through
-    /// them.
+    /// Point through whose further coordinates the canvas shows a slice of the space, its textures and its map: that of the
+    /// texture that the inspector shows. A path that plays does not move it, because a map takes longer than a frame.
+    pub fn slice_point(&self) -> SpacePoint {
+        self.session.fitted(self.inspected().at)
+    }
+
+    /// Point of the canvas with the further coordinates of the selected texture, to which edits apply.
     pub fn on_slice(&self, at: SpacePoint) -> SpacePoint {
         self.session.fitted(self.project.texture().at).on_canvas_at(at)
     }
 
     /// Whether textures can be pinned in the selected texture: only its mode Field passes through them.
     pub fn can_lock(&self) -> bool {
-        self.session.blend_in_space(&self.project.texture().blend).can_lock()
+        self.project.texture().blend.mode_in_space(self.session.n_axes()) == Mode::Field
     }
 
     /// Whether a texture of the list is pinned: the field passes through it exactly at its position.
     pub fn is_locked(&self, texture: usize) -> bool {
-        let blend = self.session.blend_in_space(&self.project.texture().blend);
-        blend.is_locked(&self.session.textures()[texture].id)
+        let locked = &self.project.texture().blend.locked;
+        self.can_lock() && locked.contains(&self.session.textures()[texture].id)
+    }
+
+    /// Whether a texture of the list is pinned without effect, because it has no position.
+    pub fn has_lost_pin(&self, texture: usize) -> bool {
+        self.is_locked(texture) && self.session.position(texture).is_none()
     }
 
     /// Whether a texture of the list is starred.

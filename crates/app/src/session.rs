@@ -40,8 +40,9 @@ use shagreen_core::texture::plane::Plane;
 use shagreen_core::units::{Contact, Hertz, Radians};
 use shagreen_formats::axis_sources::is_predicted_from_ratings;
 use shagreen_formats::library::{Library, TextureEntry};
-use shagreen_formats::project::{BlendChoice, OwnTextures, Project, ProjectLibrary};
+use shagreen_formats::project::{AddedCoordinates, BlendChoice, OwnTextures, Project, ProjectLibrary};
 use shagreen_studio::authoring::plane_at;
+use shagreen_studio::axes::{AxisColumns, list_places};
 use shagreen_studio::report::Warnings;
 
 use crate::state::scope_buffer::ScopeBuffer;
@@ -55,7 +56,7 @@ use self::hand_state::HandState;
 use self::loaded_textures::{Textures, positions, rate_in, rate_of_space};
 use self::messages::Said;
 use self::path_walk::PathWalk;
-use self::places::{AxisColumns, Opened, names_of, places, poles_of};
+use self::places::{Opened, names_of, poles_of};
 use self::planes_worker::PlanesWorker;
 use self::sound::Sound;
 
@@ -101,7 +102,8 @@ impl Session {
     /// highest sample rate.
     pub fn new(base: ProjectLibrary) -> anyhow::Result<Self> {
         let library = base.read().context(strings::DAMAGED_LIBRARY)?;
-        let places = places(&library, None, &mut AxisColumns::default());
+        let coordinates = AddedCoordinates::default();
+        let places = list_places(&library, None, &mut AxisColumns::default(), &coordinates);
         let axis_names = names_of(&library, None);
         let rate = rate_of_space(&library.textures, &places);
         let rate_hz = rate.0;
@@ -127,6 +129,7 @@ impl Session {
                 joined: Vec::new(),
                 own_ids: BTreeSet::new(),
                 own: OwnTextures::default(),
+                coordinates,
                 renamed: BTreeMap::new(),
                 used: None,
                 axes: None,

@@ -125,7 +125,9 @@ impl Window {
     pub fn new(ctx: &egui::Context, begin: Begin) -> anyhow::Result<Self> {
         install(ctx);
         icons::install(ctx);
-        let Begin { project, file, take, output, keeping } = begin;
+        let Begin { mut project, file, take, output, keeping } = begin;
+        // A new project on a library has a point in the middle of the usual axes.
+        project.fit_points();
         let mut session = Session::new(project.library.clone())?;
         session.list_outputs(ctx);
         let leftovers = Files::leftovers(&keeping);

@@ -26,5 +26,5 @@ mod space_point;
 pub mod texture_path;
 
 pub use crate::space::authoring_space::{LabelSource, Location, Space, SpaceError};
-pub use crate::space::local_mean::local_mean;
-pub use crate::space::space_point::{MOST_AXES, SpacePoint, SpacePointError};
+pub use crate::space::local_mean::{LocalMean, LocalMeans, with_local_means};
+pub use crate::space::space_point::{MIDDLE, MOST_AXES, SpacePoint, SpacePointError};

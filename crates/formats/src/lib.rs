@@ -52,6 +52,7 @@ pub mod locked_update;
 pub mod map_toml;
 pub mod materials_toml;
 pub mod measured_profile;
+pub mod named_point;
 pub mod named_table;
 mod own_json;
 mod pair_columns;

@@ -21,7 +21,7 @@
 //!   }],
 //!   "snapshots": […],
 //!   "space": {"axes": […], "textures": [{"id": "cork", "space": {…}, "attributes": {…}}], "report": {…}},
-//!   "joined": [{"id": "felt-2", "own": true, …}]
+//!   "joined": [{"id": "felt-2", "own": true, "coordinates": {"flat-bumpy": 25.0}, …}]
 //! }
 //! ```
 //!
@@ -29,7 +29,8 @@
 //!   the folder of the project if it lies inside that folder), or embedded (`{"inside": {…}}`, a whole library).
 //! - `joined` are textures added to those of the library, in the library format. `renamed`, `starred`, `locked` and
 //!   `solo` refer to textures by their identifiers. An added texture that is `own` belongs to the authored textures that
-//!   have it in `locked`, and takes part in no other.
+//!   have it in `locked`, and takes part in no other. `coordinates` are estimated coordinates of an added texture, by the name of
+//!   the axis, where neither its position nor its attributes nor its vibration give one.
 //! - `locked` are the pinned textures of the interpolation mode Field.
 //! - `compared` are the keys of the authored textures on the sides A and B of a comparison.
 //! - `shape` has the values of [`Shape`] that are not neutral.
@@ -40,9 +41,11 @@
 //!   `force exponent`, `tap frequency`). If several have the same name, it is that of the first of these; `attribute:` before a
 //!   name selects the attribute. Before version 1.3, the two names are those of attributes. Without `axes`, the textures have the
 //!   positions of `space` or of the library.
-//! - A project has version 1.3 if a position in it has another number of coordinates than two, or if its `axes` are not two
-//!   attributes; otherwise 1.2 if it has `own` textures, 1.1 if it has shapes, or 1.0.
-//! - `snapshots` are saved states of authored textures.
+//! - A project has version 1.3 if a position in it has another number of coordinates than two, if its `axes` are not two
+//!   attributes, or if it has `coordinates` or a snapshot with `axes`; otherwise 1.2 if it has `own` textures, 1.1 if it has
+//!   shapes, or 1.0.
+//! - `snapshots` are saved states of authored textures. A snapshot that was taken on other axes than those of the project has
+//!   `axes` of its own: their names, one for each of its coordinates.
 //! - `space` is a space that was built in this project; it gives the textures their positions, in the library format.
 //!
 //! Unknown fields of the project or of an authored texture are kept and written back. A file of a higher major version
@@ -50,9 +53,11 @@
 
 mod axes;
 pub mod clipboard;
+mod coordinates;
 mod error;
 mod listed_ids;
 mod own;
+mod points;
 mod read;
 mod shape;
 mod v1;
@@ -64,9 +69,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use serde_json::{Map, Value};
-use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::{Blending, Outside, Weights};
 use shagreen_core::space::texture_path::UserPath;
+use shagreen_core::space::{MIDDLE, SpacePoint};
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::shape::Shape;
 
@@ -76,7 +81,8 @@ use crate::picture::Picture;
 use crate::placed_space::PlacedSpace;
 use crate::starter::SimulatedLibraryError;
 
-pub use crate::project::axes::{ATTRIBUTE_PREFIX, plain_axis_name};
+pub use crate::project::axes::{ATTRIBUTE_PREFIX, different_axes, is_same_axis, plain_axis_name};
+pub use crate::project::coordinates::AddedCoordinates;
 pub use crate::project::error::ProjectError;
 pub use crate::project::own::OwnTextures;
 pub use crate::project::read::{read_project, read_project_on, sha256_hex};
@@ -128,6 +134,8 @@ pub struct Project {
     /// Identifiers of added textures that take part only in the authored textures that pin them;
     /// see [`OwnTextures`].
     pub own: BTreeSet<String>,
+    /// Coordinates of added textures where nothing else gives one; see [`AddedCoordinates`].
+    pub coordinates: AddedCoordinates,
     /// Fields that this version does not know.
     pub unknown: Map<String, Value>,
 }
@@ -195,6 +203,9 @@ pub struct AuthoredTexture {
     pub tags: Vec<String>,
     /// Position in the space.
     pub at: SpacePoint,
+    /// Names of the axes of its position and path, if they are not those of the space: only a snapshot that was taken on other axes
+    /// has them.
+    pub axes: Option<Vec<String>>,
     /// Interpolation options at that position.
     pub blend: BlendChoice,
     /// Shape of the interpolated texture.
@@ -236,14 +247,18 @@ impl BlendChoice {
         }
     }
 
-    /// Returns the options as they apply in a space with this number of axes. Modes that interpolate in triangles need a space
+    /// Returns the mode as it applies in a space with this number of axes. Modes that interpolate in triangles need a space
     /// with one or two axes; with more, the mode is [`Mode::Field`].
+    pub fn mode_in_space(&self, n_axes: usize) -> Mode {
+        if Blending::from(self.mode).check_in(n_axes).is_ok() { self.mode } else { Mode::Field }
+    }
+
+    /// Returns the options with the mode as it applies in a space with this number of axes
+    /// ([`BlendChoice::mode_in_space`]).
     #[must_use]
     pub fn in_space(&self, n_axes: usize) -> Cow<'_, Self> {
-        if Blending::from(self.mode).check_in(n_axes).is_ok() {
-            return Cow::Borrowed(self);
-        }
-        Cow::Owned(Self { mode: Mode::Field, ..self.clone() })
+        let mode = self.mode_in_space(n_axes);
+        if mode == self.mode { Cow::Borrowed(self) } else { Cow::Owned(Self { mode, ..self.clone() }) }
     }
 
     /// Returns whether the selected mode supports pinned textures.
@@ -271,7 +286,8 @@ impl AuthoredTexture {
             color: 0,
             notes: String::new(),
             tags: Vec::new(),
-            at: SpacePoint::plane(50.0, 50.0),
+            at: SpacePoint::plane(MIDDLE, MIDDLE),
+            axes: None,
             blend: BlendChoice::default(),
             shape: Shape::default(),
             path: None,
@@ -289,6 +305,7 @@ impl Project {
             library,
             joined: Vec::new(),
             own: BTreeSet::new(),
+            coordinates: AddedCoordinates::default(),
             renamed: BTreeMap::new(),
             starred: BTreeSet::new(),
             space: None,
@@ -318,6 +335,7 @@ impl Project {
         if let Some(space) = &self.space {
             library = space.place(&library);
         }
+        self.place_added(&mut library);
         for texture in &mut library.textures {
             if let Some(name) = self.renamed.get(&texture.id) {
                 texture.name.clone_from(name);

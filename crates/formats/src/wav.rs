@@ -2,6 +2,7 @@
 //!
 //! A WAV file has no units, so `out.json` ([`SidecarV1`]) lies next to `out.wav`. Either both are written or neither.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -46,6 +47,9 @@ pub struct SidecarV1 {
     /// Position in the space, one coordinate (0..100) for each axis, usually rough-smooth and hard-soft, if an authored
     /// texture was rendered.
     pub at: Option<Vec<f64>>,
+    /// The same position by the names of the axes ([`crate::named_point`]); absent without a position, and in older files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_named: Option<BTreeMap<String, f64>>,
     /// Whether that position was moved to the convex hull of the textures.
     pub clamped: bool,
     /// Whether the texture was extrapolated to a position outside the convex hull, beyond all measurements.
@@ -88,6 +92,7 @@ impl SidecarV1 {
             name: None,
             texture: None,
             at: None,
+            at_named: None,
             clamped: false,
             extrapolated: false,
             blend: String::new(),
@@ -258,6 +263,7 @@ mod tests {
         check_length, sidecar_path, write_wav, write_wav_as, write_wav_scaled,
     };
     use crate::wav_encoding::{Level, SampleType, WavEncoding, pack};
+    use std::collections::BTreeMap;
     use std::fs;
 
     fn sidecar() -> SidecarV1 {
@@ -272,6 +278,7 @@ mod tests {
             name: None,
             texture: None,
             at: Some(vec![30.0, 70.0]),
+            at_named: Some(BTreeMap::from([("a-b".into(), 30.0), ("c".into(), 70.0)])),
             clamped: false,
             extrapolated: false,
             blend: "shared".into(),
@@ -305,6 +312,12 @@ mod tests {
         assert_eq!(samples, [0.25, -7.5, 1e-9]);
         let beside: SidecarV1 = serde_json::from_slice(&fs::read(sidecar_path(&path)).unwrap()).unwrap();
         assert_eq!(beside, sidecar());
+        // A sidecar of an earlier version states no names.
+        let mut older = serde_json::to_value(sidecar()).unwrap();
+        assert_eq!(older["at_named"]["c"], 70.0);
+        older.as_object_mut().unwrap().remove("at_named");
+        let read: SidecarV1 = serde_json::from_value(older).unwrap();
+        assert_eq!(read, SidecarV1 { at_named: None, ..sidecar() });
     }
 
     /// What a player plays is below full scale, and the sidecar gives the acceleration back.

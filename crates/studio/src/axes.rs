@@ -4,51 +4,29 @@
 //! or that of a feature of the vibration (`centroid`). If several have the same name, it is that of the first of these.
 //! [`ATTRIBUTE_PREFIX`](shagreen_formats::project::ATTRIBUTE_PREFIX) before a name selects the attribute.
 
+mod columns;
+
 use shagreen_core::people::ratings::poles;
+use shagreen_core::space::MOST_AXES;
 use shagreen_core::space::axis_evaluation::{AxisCandidate, AxisEvaluation, evaluate_axes};
 use shagreen_core::space::signal_axes::SignalAxis;
-use shagreen_core::space::{LabelSource, MOST_AXES, SpacePoint, local_mean};
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_core::texture::TextureModel;
-use shagreen_formats::library::{Library, Place, TextureEntry, USUAL_AXES};
+use shagreen_formats::library::{Library, USUAL_AXES};
 use shagreen_formats::placed_space::is_dimension_name;
-use shagreen_formats::project::plain_axis_name;
+use shagreen_formats::project::{AddedCoordinates, plain_axis_name};
 
+pub use self::columns::{AxisColumns, AxisSource, list_places};
+
+use self::columns::{Column, column, model, stated_column};
 use crate::near_names::near;
 use crate::parallel::in_parallel;
 
-/// Coordinate on an axis where nothing is known.
-const MIDDLE: f64 = 50.0;
-/// Meaning of 0 and of 100 on a dimension of a perceptual space.
-const DIMENSION_POLES: [&str; 2] = ["low", "high"];
-
-/// Coordinate of each texture on an axis, 0 to 100, indexed as the textures of the library.
-type Column = Vec<Option<f64>>;
-
-/// Where the coordinates on an axis come from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AxisSource {
-    /// The positions, by the number of the coordinate, from 0.
-    Position(usize),
-    /// An attribute of the textures.
-    Attribute,
-    /// A feature of the vibration.
-    Signal(SignalAxis),
-}
-
-impl AxisSource {
-    /// Word for lists and scripts.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::Position(_) => "positions",
-            Self::Attribute => "attributes",
-            Self::Signal(_) => "vibration",
-        }
-    }
-}
+/// Words for 0 and for 100 on a dimension of a perceptual space, before its name.
+const DIMENSION_ENDS: [&str; 2] = ["low", "high"];
 
 /// Axis on which at least one texture has a coordinate.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct KnownAxis {
     /// Name of the axis.
     pub name: String,
@@ -56,6 +34,8 @@ pub struct KnownAxis {
     pub source: AxisSource,
     /// Number of textures with a coordinate, at least one.
     pub n_known: usize,
+    /// Lowest and highest coordinate of the textures, 0 to 100.
+    pub range: [f64; 2],
 }
 
 /// Choice of axes with a name.
@@ -124,7 +104,9 @@ fn known_columns(library: &Library) -> Vec<(KnownAxis, Column)> {
     let mut add = |name: &str, source: AxisSource, column: Column| {
         let n_known = column.iter().flatten().count();
         if n_known > 0 && known.iter().all(|(axis, _)| axis.name != name) {
-            known.push((KnownAxis { name: name.to_owned(), source, n_known }, column));
+            let around = |[low, high]: [f64; 2], value: &f64| [low.min(*value), high.max(*value)];
+            let range = column.iter().flatten().fold([f64::INFINITY, f64::NEG_INFINITY], around);
+            known.push((KnownAxis { name: name.to_owned(), source, n_known, range }, column));
         }
     };
     let mut names: Vec<&str> = library.axis_names();
@@ -152,41 +134,14 @@ pub fn axis_values(library: &Library, name: &str) -> Option<Vec<Option<f64>>> {
     column(library, name).map(|(_, column)| column)
 }
 
-/// Where the coordinates on an axis come from, and the coordinate of each texture; `None` if no texture has one.
-fn column(library: &Library, name: &str) -> Option<(AxisSource, Column)> {
-    stated_column(library, name).or_else(|| {
-        let axis = SignalAxis::from_name(name)?;
-        let column = in_parallel(library.textures.len(), |texture| axis.of(model(library, texture)));
-        column.iter().any(Option::is_some).then_some((AxisSource::Signal(axis), column))
-    })
-}
-
-/// As [`column`], without features of the vibration.
-fn stated_column(library: &Library, name: &str) -> Option<(AxisSource, Column)> {
-    let all = |source: AxisSource, of: &dyn Fn(&TextureEntry) -> Option<f64>| {
-        let column: Column = library.textures.iter().map(of).collect();
-        column.iter().any(Option::is_some).then_some((source, column))
-    };
-    let of_positions = library
-        .axis_names()
-        .iter()
-        .position(|axis| *axis == name)
-        .and_then(|axis| all(AxisSource::Position(axis), &|texture| texture.at()?.get(axis)));
-    let plain = plain_axis_name(name);
-    of_positions.or_else(|| all(AxisSource::Attribute, &|texture| texture.attributes.as_ref()?.get(plain)))
-}
-
-fn model(library: &Library, texture: usize) -> &TextureModel {
-    &library.textures[texture].model
-}
-
 /// Returns the meaning of 0 and of 100 on an axis: the poles of an attribute, of which the second is empty if its name is one
-/// word, or those of a feature of the vibration.
+/// word, those of a feature of the vibration, or the ends of a dimension of a perceptual space, which name it: its direction has no
+/// meaning.
 pub fn axis_poles(name: &str) -> [String; 2] {
     let plain = plain_axis_name(name);
     match SignalAxis::from_name(name) {
         Some(axis) => axis.poles().map(str::to_owned),
-        None if is_dimension_name(plain) => DIMENSION_POLES.map(str::to_owned),
+        None if is_dimension_name(plain) => DIMENSION_ENDS.map(|end| format!("{end} {plain}")),
         None => poles(plain),
     }
 }
@@ -206,46 +161,34 @@ pub fn presets(library: &Library) -> Vec<AxisPreset> {
 /// Returns the library with positions on these axes, which its `axes` then name. A texture without a coordinate on one of them has
 /// no position. With the axes of its positions, the library stays as it is.
 ///
-/// The label source of a position is that of its first axis that is no feature of the vibration, or else physical. Standard
-/// deviations are kept if the first two axes stay.
+/// Positions have label sources and standard deviations as in [`AxisColumns::places`].
 ///
 /// # Errors
 /// See [`AxesError`].
 pub fn placed_on(library: &Library, axes: &[String]) -> Result<Library, AxesError> {
-    if is_own(library, axes) {
-        return Ok(library.clone());
-    }
-    let (places, names) = places_and_names(library, axes)?;
-    Ok(library.clone().with_places(places, names))
+    placed_with(library, axes, &AddedCoordinates::default())
 }
 
-/// Returns the position of each texture on these axes, as [`placed_on`] gives them to the library.
+/// As [`placed_on`]; a texture without a coordinate on one of the axes has that of `added`, if there is one.
 ///
 /// # Errors
 /// See [`AxesError`].
-pub fn places_on(library: &Library, axes: &[String]) -> Result<Vec<Option<Place>>, AxesError> {
-    if is_own(library, axes) {
-        return Ok(library.textures.iter().map(|texture| texture.place).collect());
-    }
-    places_and_names(library, axes).map(|(places, _)| places)
-}
-
-fn is_own(library: &Library, axes: &[String]) -> bool {
-    library.axis_names().iter().eq(axes)
-}
-
-/// Positions of the textures on axes, and the names of these as a library states them.
-fn places_and_names(
+pub fn placed_with(
     library: &Library,
     axes: &[String],
-) -> Result<(Vec<Option<Place>>, Vec<String>), AxesError> {
+    added: &AddedCoordinates,
+) -> Result<Library, AxesError> {
+    if library.axis_names().iter().eq(axes) {
+        return Ok(library.clone());
+    }
     if !(1..=MOST_AXES).contains(&axes.len()) {
         return Err(AxesError::Count { n: axes.len() });
     }
-    let (mut columns, mut names): (Vec<(AxisSource, Column)>, Vec<String>) = (Vec::new(), Vec::new());
+    let mut columns = AxisColumns::default();
+    let places = columns.places(library, axes, added);
+    let mut names: Vec<String> = Vec::new();
     for name in axes {
-        let (source, column) = column(library, name).ok_or_else(|| unknown(library, name))?;
-        let plain = match source {
+        let plain = match columns.source(name).ok_or_else(|| unknown(library, name))? {
             AxisSource::Signal(axis) => axis.name(),
             AxisSource::Position(_) | AxisSource::Attribute => plain_axis_name(name),
         };
@@ -254,26 +197,11 @@ fn places_and_names(
             return Err(AxesError::Twice { name: plain.to_owned() });
         }
         names.push(plain.to_owned());
-        columns.push((source, column));
     }
-    let mut first = columns.iter().take(2).map(|(source, _)| *source);
-    let keeps_deviation = (0..2).all(|axis| first.next() == Some(AxisSource::Position(axis)));
-    let place = |(index, texture): (usize, &TextureEntry)| {
-        let coordinates: Option<Vec<f64>> = columns.iter().map(|(_, column)| column[index]).collect();
-        let at = SpacePoint::of(&coordinates?).ok()?;
-        let stated = columns.iter().find_map(|(source, _)| match source {
-            AxisSource::Position(_) => texture.label_source(),
-            AxisSource::Attribute => texture.attributes.as_ref().map(|attributes| attributes.source),
-            AxisSource::Signal(_) => None,
-        });
-        let deviation = texture.place.and_then(|place| place.deviation).filter(|_| keeps_deviation);
-        Some(Place { deviation, ..Place::new(at, stated.unwrap_or(LabelSource::PhysicalLabels)) })
-    };
-    let places: Vec<Option<Place>> = library.textures.iter().enumerate().map(place).collect();
     if places.iter().all(Option::is_none) {
         return Err(AxesError::Nothing { axes: names });
     }
-    Ok((places, names))
+    Ok(library.clone().with_places(places, names))
 }
 
 fn unknown(library: &Library, name: &str) -> AxesError {
@@ -284,23 +212,6 @@ fn unknown(library: &Library, name: &str) -> AxesError {
 
 fn meant(near: Option<&String>) -> String {
     near.map_or_else(String::new, |near| format!("did you mean \"{near}\"? Otherwise, "))
-}
-
-/// Returns a point of the axes `from` on the axes `to`. It keeps its coordinates on axes that stay. On others, it has the local
-/// mean of the textures over the axes `from` ([`local_mean`]), or the middle where that is unknown. `library` has its own
-/// positions, or those on the axes `from`.
-pub fn moved_to_axes(library: &Library, at: SpacePoint, from: &[String], to: &[String]) -> SpacePoint {
-    let at = at.on(from.len());
-    // Without positions, no local mean is known.
-    let places = places_on(library, from).unwrap_or_default();
-    let positions: Vec<Option<SpacePoint>> = places.into_iter().map(|place| Some(place?.at)).collect();
-    let coordinate = |name: &String| {
-        let kept = from.iter().position(|axis| axis == name).and_then(|axis| at.get(axis));
-        let mean = || local_mean(&positions, &axis_values(library, name)?, at);
-        kept.or_else(mean).unwrap_or(MIDDLE)
-    };
-    let coordinates: Vec<f64> = to.iter().map(coordinate).collect();
-    SpacePoint::of(&coordinates).unwrap_or_else(|_| at.on(to.len()))
 }
 
 /// Evaluates what axes add to a space: those of `first`, in this order, then those of `candidates`, or else all that the library

@@ -105,6 +105,7 @@ pub fn join_felt(
     if let Some(id) = &replaced_id {
         locked.remove(id);
         project.own.remove(id);
+        project.coordinates.remove(id);
     }
     locked.insert(entry.id.clone());
     project.own.insert(entry.id.clone());

@@ -13,6 +13,7 @@
 )]
 
 pub mod about;
+pub mod added_places;
 pub mod authoring;
 pub mod axes;
 pub mod driven_channels;

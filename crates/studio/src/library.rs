@@ -55,8 +55,14 @@ fn load_file(path: &Path, reporter: &dyn Reporter) -> anyhow::Result<Result<Libr
     }))
 }
 
-/// Merges all library files of a folder; other files are ignored. The merged library has the axes of the libraries if they all
-/// have the same, or else the usual two.
+/// Axes and path of a library of a folder.
+struct Stated {
+    axes: Option<Vec<String>>,
+    path: PathBuf,
+}
+
+/// Merges all library files of a folder; other files are ignored. The merged library has the axes of the libraries if all with
+/// positions have the same, or else the usual two.
 fn load_folder(folder: &Path, reporter: &dyn Reporter) -> anyhow::Result<Library> {
     let list = || -> std::io::Result<Vec<PathBuf>> {
         std::fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect()
@@ -67,9 +73,7 @@ fn load_folder(folder: &Path, reporter: &dyn Reporter) -> anyhow::Result<Library
     paths.sort();
     let mut merged = Library { name: folder.display().to_string(), ..Library::default() };
     let mut homes: HashMap<String, PathBuf> = HashMap::new();
-    // Names of the axes of the first library, and its path.
-    let mut first: Option<(Option<Vec<String>>, PathBuf)> = None;
-    let mut has_same_axes = true;
+    let (mut placed, mut unplaced): (Vec<Stated>, Vec<Stated>) = (Vec::new(), Vec::new());
     for path in paths {
         let library = match load_file(&path, reporter)? {
             Ok(library) => library,
@@ -77,18 +81,6 @@ fn load_folder(folder: &Path, reporter: &dyn Reporter) -> anyhow::Result<Library
             Err(LibraryError::Format { .. }) => continue,
             Err(error) => return Err(error).with_context(|| in_file(&path)),
         };
-        let (axes, other) = first.get_or_insert_with(|| (library.axes.clone(), path.clone()));
-        if *axes != library.axes {
-            has_same_axes = false;
-            // Positions on two axes were always merged, whatever the axes are.
-            if [&*axes, &library.axes].into_iter().flatten().any(|axes| axes.len() != USUAL_AXES.len()) {
-                bail!(
-                    "two libraries have positions on different axes; move one of them to another folder: {} and {}",
-                    other.display(),
-                    path.display()
-                );
-            }
-        }
         for texture in &library.textures {
             if let Some(other) = homes.insert(texture.id.clone(), path.clone()) {
                 bail!(
@@ -101,12 +93,36 @@ fn load_folder(folder: &Path, reporter: &dyn Reporter) -> anyhow::Result<Library
             let license = library.license_of(texture).to_owned();
             merged.textures.push(TextureEntry { license, ..texture.clone() });
         }
+        let has_positions = library.textures.iter().any(|texture| texture.place.is_some());
+        let stated = Stated { axes: library.axes, path };
+        if has_positions {
+            check_axes(placed.first(), &stated)?;
+            placed.push(stated);
+        } else {
+            unplaced.push(stated);
+        }
     }
-    let Some((axes, _)) = first else {
+    // Axes of a library without positions count only if no library has positions.
+    let mut stated = if placed.is_empty() { unplaced } else { placed }.into_iter();
+    let Some(Stated { axes, .. }) = stated.next() else {
         bail!("the folder contains no texture library (.json); choose another folder: {}", folder.display());
     };
-    merged.axes = axes.filter(|_| has_same_axes);
+    merged.axes = axes.filter(|axes| stated.all(|other| other.axes.as_ref() == Some(axes)));
     Ok(merged)
+}
+
+/// Checks that the positions of a library can be merged with those of the first one. Positions on two axes were always merged,
+/// whatever the axes are.
+fn check_axes(first: Option<&Stated>, other: &Stated) -> anyhow::Result<()> {
+    let Some(first) = first.filter(|first| first.axes != other.axes) else { return Ok(()) };
+    if [&first.axes, &other.axes].into_iter().flatten().any(|axes| axes.len() != USUAL_AXES.len()) {
+        bail!(
+            "two libraries have positions on different axes; move one of them to another folder: {} and {}",
+            first.path.display(),
+            other.path.display()
+        );
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -143,5 +159,27 @@ mod tests {
         assert_eq!(loaded([Some(&swapped), None]).unwrap().axes, None);
         let error = loaded([None, Some(&three)]).unwrap_err().to_string();
         assert!(error.contains("different axes") && error.contains("1.json"), "{error}");
+    }
+
+    /// A library without positions, such as one of new recordings, has no axes that could differ.
+    #[test]
+    fn a_library_without_positions_is_merged_with_any_other() {
+        let three = ["rough-smooth", "hard-soft", "centroid"];
+        let mut placed = placed_on(&starter_library().unwrap(), &three.map(str::to_owned)).unwrap();
+        let mut recorded = starter_library().unwrap();
+        placed.textures.truncate(5);
+        recorded.textures.drain(..5);
+        for texture in &mut recorded.textures {
+            texture.place = None;
+        }
+        for names in [["a.json", "b.json"], ["b.json", "a.json"]] {
+            let folder = tempfile::tempdir().unwrap();
+            for (name, library) in names.into_iter().zip([&placed, &recorded]) {
+                std::fs::write(folder.path().join(name), write_library(library)).unwrap();
+            }
+            let library = load(Some(folder.path()), &Warnings::default()).unwrap();
+            assert_eq!((library.axis_names(), library.textures.len()), (three.to_vec(), 25), "{names:?}");
+            assert_eq!(library.positions().into_iter().flatten().count(), 5);
+        }
     }
 }

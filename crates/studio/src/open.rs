@@ -68,7 +68,8 @@ pub enum LibraryOrigin {
     Starter,
 }
 
-/// Reads a library, or a project with its library if that is a separate file.
+/// Reads a library, or a project with its library if that is a separate file. All points of the project have one coordinate for each
+/// axis of its space; a warning says if they had others in the file.
 ///
 /// # Errors
 /// The file cannot be read or is neither; the message names the file. [`OutsideLibrary`] if the project names a library
@@ -97,8 +98,9 @@ pub fn open(path: &Path, permitted: &Permitted) -> anyhow::Result<Opened> {
         return Err(OutsideLibrary { library: library.clone() }.into());
     }
     match as_project {
-        Ok(Imported { value: project, mut warnings }) => {
+        Ok(Imported { value: mut project, mut warnings }) => {
             warnings.extend(outside.map(|library| outside_warning(&library)));
+            warnings.extend(fit_points(&mut project));
             let (sha256, origin) = (sha256_hex(&bytes), LibraryOrigin::Project);
             Ok(Opened::Project(Box::new(OpenedProject { project, warnings, sha256, origin })))
         }
@@ -109,7 +111,8 @@ pub fn open(path: &Path, permitted: &Permitted) -> anyhow::Result<Opened> {
     }
 }
 
-/// Reads a project with another library than the one that it names: the file at `library`, or the starter library.
+/// Reads a project with another library than the one that it names: the file at `library`, or the starter library. Its points are
+/// those of [`open`].
 ///
 /// # Errors
 /// One of the files cannot be read or is of another kind; the message names the file.
@@ -128,8 +131,20 @@ pub fn open_on(path: &Path, library: Option<&Path>) -> anyhow::Result<OpenedProj
     };
     let bytes = document(path)?;
     let read = read_project_on(&bytes, on).with_context(|| in_file(path))?;
+    let mut project = read.value;
     warnings.extend(read.warnings);
-    Ok(OpenedProject { project: read.value, warnings, sha256: sha256_hex(&bytes), origin })
+    warnings.extend(fit_points(&mut project));
+    Ok(OpenedProject { project, warnings, sha256: sha256_hex(&bytes), origin })
+}
+
+/// Gives every point of a project one coordinate for each axis of the space; returns a warning if one had others.
+fn fit_points(project: &mut Project) -> Option<String> {
+    project.fit_points().then(|| {
+        format!(
+            "points of the project had another number of coordinates than the space has axes ({}): missing coordinates are in the middle, further ones are left out; check their positions before you save",
+            project.axis_names().join(", ")
+        )
+    })
 }
 
 /// Bytes of a project or library.
@@ -177,105 +192,4 @@ fn outside_warning(library: &Path) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{LibraryOrigin, OTHER_ENDINGS, Opened, open, open_on};
-    use crate::permitted_libraries::{OutsideLibrary, Permitted};
-    use crate::project::new_project;
-    use shagreen_formats::built_in::BuiltIn;
-    use shagreen_formats::picture::PHOTO_ENDINGS;
-    use shagreen_formats::project::{ProjectLibrary, write_project};
-    use shagreen_formats::starter::starter_bytes;
-
-    #[test]
-    fn what_cannot_be_opened_is_explained() {
-        let folder = tempfile::tempdir().unwrap();
-        let error_of = |path: &std::path::Path| {
-            format!("{:#}", open(path, &Permitted::All).err().expect("no file to open"))
-        };
-        let faults: [(&str, &[u8], &str); 6] = [
-            ("a", b"hello", "neither a project nor"),
-            ("empty", b"", "the file is empty"),
-            ("picture", b"\x89PNG\r\n\x1a\n", "this is a PNG picture, neither a project nor"),
-            ("b", b"{\"format\": \"shagreen-library\"}", "version missing"),
-            ("c", b"{\"format\": \"shagreen-project\"}", "version missing"),
-            ("d", b"{\"format\": \"shagreen-project\", \"version\": \"1.0\"}", "damaged"),
-        ];
-        for (name, bytes, words) in faults {
-            let path = folder.path().join(name);
-            std::fs::write(&path, bytes).unwrap();
-            let error = error_of(&path);
-            assert!(error.contains(words) && error.contains(&path.display().to_string()), "{error}");
-        }
-        assert!(error_of(folder.path()).contains("not a file"));
-        assert!(error_of(&folder.path().join("none")).contains("cannot be read"));
-    }
-
-    #[test]
-    fn photos_of_all_formats_are_taken() {
-        assert!(PHOTO_ENDINGS.iter().all(|ending| OTHER_ENDINGS.contains(ending)));
-    }
-
-    #[test]
-    fn a_library_is_opened_too() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("starter.json");
-        std::fs::write(&path, starter_bytes()).unwrap();
-        let Ok(Opened::Library(imported)) = open(&path, &Permitted::All) else { panic!("a library") };
-        assert_eq!((imported.value.path, imported.value.library.textures.len()), (path, 25));
-    }
-
-    #[test]
-    fn a_library_outside_the_folder_is_read_with_permission_only() {
-        let folder = tempfile::tempdir().unwrap();
-        let root = folder.path().canonicalize().unwrap();
-        for name in ["elsewhere", "near"] {
-            std::fs::create_dir(root.join(name)).unwrap();
-            std::fs::write(root.join(name).join("mine.json"), starter_bytes()).unwrap();
-        }
-        let project = root.join("near/a.shagreen");
-        let name_library = |library: &str| {
-            let written = write_project(&new_project(), &root, "test");
-            let mut wire: serde_json::Value = serde_json::from_slice(&written).unwrap();
-            wire["library"] = serde_json::json!({"file": library});
-            std::fs::write(&project, wire.to_string()).unwrap();
-        };
-        let only = |places: &[&str]| Permitted::Only(places.iter().map(|place| root.join(place)).collect());
-        let opened = |permitted: &Permitted| match open(&project, permitted) {
-            Ok(Opened::Project(opened)) => Ok(opened),
-            Ok(Opened::Library(_)) => panic!("a project"),
-            Err(error) => Err(error),
-        };
-        name_library("mine.json");
-        assert!(opened(&only(&[])).is_ok(), "beside the project");
-        name_library("../elsewhere/mine.json");
-        let refused = opened(&only(&["elsewhere/other.json"])).unwrap_err();
-        let refused = refused.downcast_ref::<OutsideLibrary>().expect("it is outside");
-        assert_eq!(refused.library, root.join("elsewhere/mine.json"));
-        for places in [["elsewhere"], ["elsewhere/mine.json"]] {
-            assert!(opened(&only(&places)).unwrap().warnings.is_empty(), "{places:?}");
-        }
-        let warned = opened(&Permitted::AllWarned(Vec::new())).unwrap();
-        assert!(warned.warnings[0].contains("outside the folder of the project"), "{:?}", warned.warnings);
-        assert!(opened(&Permitted::All).unwrap().warnings.is_empty());
-        // A link beside the project: the refusal names what it leads to, which can then be permitted.
-        #[cfg(unix)]
-        {
-            std::os::unix::fs::symlink(root.join("elsewhere/mine.json"), root.join("near/link.json"))
-                .unwrap();
-            name_library("link.json");
-            let refused = opened(&only(&[])).unwrap_err();
-            let refused = refused.downcast_ref::<OutsideLibrary>().expect("it is outside");
-            assert_eq!(refused.library, root.join("elsewhere/mine.json"));
-            assert!(opened(&only(&["elsewhere/mine.json"])).is_ok());
-            name_library("../elsewhere/mine.json");
-        }
-        // Another library in its place.
-        let chosen = open_on(&project, Some(&root.join("near/mine.json"))).unwrap();
-        let ProjectLibrary::File(file) = &chosen.project.library else { panic!("a file") };
-        assert_eq!((&file.path, chosen.origin), (&root.join("near/mine.json"), LibraryOrigin::Chosen));
-        let without = open_on(&project, None).unwrap();
-        assert_eq!(without.project.library, ProjectLibrary::BuiltIn(BuiltIn::Starter));
-        assert_eq!((without.warnings.len(), without.origin), (1, LibraryOrigin::Starter));
-        assert!(open_on(&project, Some(&project)).is_err(), "a project is no library");
-    }
-}
+mod tests;

@@ -3,7 +3,7 @@
 use shagreen_core::maths::gaussian_process::Estimate;
 use shagreen_core::space::attribute_predictor::{Known, Quantities, predict, quantities, without_features};
 use shagreen_core::space::signal_axes::SignalAxis;
-use shagreen_core::space::{LabelSource, SpacePoint, local_mean};
+use shagreen_core::space::{LabelSource, SpacePoint, with_local_means};
 use shagreen_formats::attribute_table::attribute_table;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::text_limits::{MAX_NOTES, begin_and_end};
@@ -14,8 +14,6 @@ const LEAST_KNOWN: usize = 5;
 const MOST_DEVIATION: f64 = 100.0;
 /// Number of axes on which a texture needs a prediction to get a position; it may lie at the local mean on further ones.
 const N_NEEDED: usize = 2;
-/// Coordinate on an axis where nothing is known.
-const MIDDLE: f64 = 50.0;
 
 /// Prediction on all axes of a library.
 struct Predicted {
@@ -107,8 +105,7 @@ fn predicted(entry: &TextureEntry, library: &Library) -> Option<Predicted> {
     if axes.iter().take(N_NEEDED).any(Option::is_none) {
         return None;
     }
-    let axes = (0..axes.len()).map(|axis| axes[axis].unwrap_or_else(|| near(&axes, library, axis))).collect();
-    Some(Predicted { axes, labels: table.of_library(&library.name) })
+    Some(Predicted { axes: completed(&axes, library), labels: table.of_library(&library.name) })
 }
 
 /// The prediction, or the estimate from the labels alone if it is as uncertain.
@@ -140,28 +137,18 @@ fn from_positions(features: &Quantities, library: &Library, axis: usize) -> Opti
     Some(told(estimate, without_features(&known).into_iter().next()?))
 }
 
-/// Local mean of the textures on an axis, at the coordinates on the others that are known.
-fn near(axes: &[Option<OnAxis>], library: &Library, axis: usize) -> OnAxis {
-    let (told, coordinates): (Vec<usize>, Vec<f64>) = axes
-        .iter()
-        .enumerate()
-        .filter_map(|(axis, on)| Some((axis, (*on)?.estimate.mean.clamp(0.0, 100.0))))
-        .unzip();
-    let on_told = |at: SpacePoint| {
-        let coordinates: Option<Vec<f64>> = told.iter().map(|axis| at.get(*axis)).collect();
-        SpacePoint::of(&coordinates?).ok()
-    };
-    let positions: Vec<Option<SpacePoint>> =
-        library.textures.iter().map(|texture| on_told(texture.at()?)).collect();
-    let values: Vec<Option<f64>> = library.textures.iter().map(|texture| texture.at()?.get(axis)).collect();
-    let at = SpacePoint::of(&coordinates).ok();
-    let mean = at.and_then(|at| local_mean(&positions, &values, at)).unwrap_or(MIDDLE);
-    OnAxis { estimate: Estimate { mean, deviation: 0.0 }, basis: Basis::Neighbors }
+/// The coordinates on all axes; those without a prediction are the local mean of the textures.
+fn completed(axes: &[Option<OnAxis>], library: &Library) -> Vec<OnAxis> {
+    let known: Vec<Option<f64>> =
+        axes.iter().map(|on| on.map(|on| on.estimate.mean.clamp(0.0, 100.0))).collect();
+    let near = |mean: f64| OnAxis { estimate: Estimate { mean, deviation: 0.0 }, basis: Basis::Neighbors };
+    let means = with_local_means(&library.positions(), &known);
+    axes.iter().zip(means).map(|(on, mean)| on.unwrap_or_else(|| near(mean))).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Basis, MAX_NOTES, OnAxis, can_estimate, in_words, near, place_by_estimate, told};
+    use super::{Basis, MAX_NOTES, OnAxis, can_estimate, completed, in_words, place_by_estimate, told};
     use crate::axes::placed_on;
     use shagreen_core::maths::gaussian_process::Estimate;
     use shagreen_core::space::signal_axes::SignalAxis;
@@ -263,8 +250,11 @@ mod tests {
         }
         let entry = first_placed_again(&library);
         assert!(!entry.description.contains("local mean"), "{}", entry.description);
-        let unknown = near(&[None, None], &Library::default(), 1);
-        assert_eq!((unknown.estimate.mean, unknown.basis), (50.0, Basis::Neighbors));
+        let unknown = completed(&[None, None], &Library::default());
+        assert!(
+            unknown.iter().all(|on| (on.estimate.mean, on.basis) == (50.0, Basis::Neighbors)),
+            "{unknown:?}"
+        );
     }
 
     #[test]

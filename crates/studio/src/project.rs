@@ -7,7 +7,7 @@ use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::Library;
 use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
 
-use crate::axes::placed_on;
+use crate::axes::{placed_on, placed_with};
 use crate::open::{Opened, open};
 use crate::permitted_libraries::Permitted;
 use crate::report::Reporter;
@@ -54,9 +54,41 @@ pub fn textures_of(project: &Project) -> anyhow::Result<Library> {
 pub fn textures_on_axes(project: &Project) -> anyhow::Result<Library> {
     let library = textures_of(project)?;
     match &project.axes {
-        Some(axes) => placed_on(&library, axes).context("the project cannot have its axes"),
+        Some(axes) => {
+            placed_with(&library, axes, &project.coordinates).context("the project cannot have its axes")
+        }
         None => Ok(library),
     }
+}
+
+/// Returns whether the textures of the library of a project can be placed on the axes that the project chooses. `false` if it chooses
+/// none, or those of the positions.
+pub fn can_have_its_axes(project: &Project) -> bool {
+    let Some(axes) = &project.axes else { return false };
+    let Ok(library) = project.library.read() else { return false };
+    let library = match &project.space {
+        Some(space) => space.place(&library),
+        None => library,
+    };
+    library.axis_names() != *axes && placed_on(&library, axes).is_ok()
+}
+
+/// Returns the textures of a project for the selection of one by its identifier, which needs no positions: on the axes of the
+/// project ([`textures_on_axes`]), or as [`textures_of`] if none can be placed on these axes. A note then says so.
+///
+/// # Errors
+/// The built-in library is damaged.
+pub fn textures_by_id(project: &Project, reporter: &dyn Reporter) -> anyhow::Result<Library> {
+    if let Ok(library) = textures_on_axes(project) {
+        return Ok(library);
+    }
+    // A damaged library fails here again, so that what remains is an error of the axes.
+    let library = textures_of(project)?;
+    let axes = project.axes.as_deref().unwrap_or_default().join(", ");
+    reporter.note(&format!(
+        "no texture can be placed on the axes of the project ({axes}), so these axes are not used"
+    ));
+    Ok(library)
 }
 
 /// Returns the authored texture with this name, or else with this key.

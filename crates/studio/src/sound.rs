@@ -218,10 +218,11 @@ fn is_mostly_below(trace: &TraceV1, lowest_mm_per_s: f64, lowest_n: f64) -> bool
     2 * moving.iter().filter(is_below).count() > moving.len()
 }
 
-/// Warns of a point outside the convex hull of the textures.
+/// Warns of a point outside the convex hull of the textures, unless the point that is used instead looks the same.
 fn warn_outside_hull(point: SpacePoint, authored: &Authored, reporter: &dyn Reporter) {
     let at = authored.location.at;
-    match (authored.location.clamped, authored.is_extrapolated) {
+    let is_moved = authored.location.clamped && point.most_different_axis(at).is_some();
+    match (is_moved, authored.is_extrapolated) {
         (false, false) => {}
         (true, false) => reporter.warn(&format!(
             "{point} lies outside the convex hull of the textures; the nearest point of the hull, {at}, is used"
@@ -237,63 +238,4 @@ fn warn_outside_hull(point: SpacePoint, authored: &Authored, reporter: &dyn Repo
 }
 
 #[cfg(test)]
-mod tests {
-    use std::cell::RefCell;
-
-    use super::{Sound, is_mostly_below};
-    use crate::report::Reporter;
-    use crate::trace::steady_trace;
-    use shagreen_core::texture::blend::Mode;
-    use shagreen_core::texture::shape::Shape;
-    use shagreen_core::units::Contact;
-    use shagreen_formats::starter::starter_library;
-    use shagreen_formats::wav::TraceV1;
-
-    #[derive(Default)]
-    struct Notes(RefCell<Vec<String>>);
-
-    impl Reporter for Notes {
-        fn warn(&self, message: &str) {
-            self.note(message);
-        }
-
-        fn note(&self, message: &str) {
-            self.0.borrow_mut().push(message.to_owned());
-        }
-    }
-
-    /// The starter textures are measured from 30 mm/s and 0.15 N.
-    #[test]
-    fn strokes_outside_the_measured_range_are_noted() {
-        let library = starter_library().unwrap();
-        let cork = Sound::of_texture(&library, "cork", Mode::Field, &Shape::default()).unwrap();
-        for (mm_per_s, force_n, words) in [
-            (100.0, 1.0, None),
-            (30.0, 0.15, None),
-            (20.0, 1.0, Some("measured from 30 mm/s and 0.15 N")),
-            (100.0, 0.1, Some("fade to silence")),
-            (9000.0, 1.0, Some("measured up to")),
-            (0.0, 1.0, None),
-        ] {
-            let notes = Notes::default();
-            let trace = steady_trace(Contact::from_mm_per_s_and_n(mm_per_s, force_n), 1.0);
-            cork.note_limits(&library, &trace, &notes);
-            let said = notes.0.into_inner();
-            assert_eq!(said.len(), usize::from(words.is_some()), "{said:?}");
-            assert!(words.is_none_or(|words| said[0].contains(words)), "{said:?}");
-        }
-    }
-
-    #[test]
-    fn a_stroke_that_starts_at_rest_is_not_below() {
-        let trace = |speed_mm_per_s: Vec<f64>| TraceV1 {
-            force_n: vec![1.0; speed_mm_per_s.len()],
-            time_s: (0..speed_mm_per_s.len()).map(|i| i as f64).collect(),
-            speed_mm_per_s,
-            ..TraceV1::default()
-        };
-        assert!(!is_mostly_below(&trace(vec![0.0, 10.0, 100.0, 100.0, 10.0, 0.0]), 50.0, 0.5));
-        assert!(is_mostly_below(&trace(vec![0.0, 10.0, 20.0, 100.0]), 50.0, 0.5));
-        assert!(!is_mostly_below(&trace(Vec::new()), 50.0, 0.5));
-    }
-}
+mod tests;

@@ -1,8 +1,9 @@
 //! List of the authored textures and their snapshots.
 
 use egui::{Button, Id, Label, Rect, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
-use shagreen_core::space::SpacePoint;
+use shagreen_core::space::{MIDDLE, SpacePoint};
 use shagreen_formats::project::AuthoredTexture;
+use shagreen_studio::axes::axis_poles;
 
 use crate::author::authored_menu::{authored_keys, authored_menu};
 use crate::author::compare_ui::compare_ui;
@@ -25,7 +26,7 @@ const LIST_HEIGHT: f32 = 12.0 * ROW;
 /// Maximum share of the column height that the list takes.
 const LIST_SHARE: f32 = 0.21;
 /// Center of the canvas.
-const MIDDLE: SpacePoint = SpacePoint::plane(50.0, 50.0);
+const CENTER: SpacePoint = SpacePoint::plane(MIDDLE, MIDDLE);
 
 /// Draws the list; returns the requested commands.
 pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
@@ -41,7 +42,7 @@ pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             if ui.button(words::ADD).on_hover_text(words::ADD_HELP).clicked() {
                 // Its name is selected, so that typing replaces it.
-                let added = Command::Edit(Edit::Author(Box::new(fresh(panel, MIDDLE))));
+                let added = Command::Edit(Edit::Author(Box::new(fresh(panel, CENTER))));
                 commands.extend([added, Command::RenameSelected]);
             }
         });
@@ -160,7 +161,11 @@ fn snapshots_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
                     commands.push(Command::Edit(Edit::RemoveSnapshot(index)));
                 }
             });
-            let place = strings::place_in_words(snapshot.at, panel.session.poles());
+            // It may have been taken on other axes.
+            let own: Option<Vec<[String; 2]>> =
+                snapshot.axes.as_ref().map(|axes| axes.iter().map(|axis| axis_poles(axis)).collect());
+            let poles = own.as_deref().unwrap_or(panel.session.poles());
+            let place = strings::place_in_words(snapshot.at, poles);
             let is_there = panel.project.authored.iter().any(|texture| texture.key == snapshot.key);
             let effect = words::restore_help(name_of_snapshot(panel.project, index), is_there);
             response.on_hover_text(format!("{name}\n{place}\n{effect}\n{}", words::SNAPSHOTS_HELP));

@@ -22,7 +22,18 @@ pub fn blend_ui(ui: &mut Ui, panel: &Panel<'_>) -> Option<Command> {
         ui.set_min_height(ROW_HEIGHT);
         options_ui(ui, panel)
     });
+    waiting_ui(ui, panel);
     chosen.or(row.inner).map(Command::Edit)
+}
+
+/// States that the mode of the texture waits for a space with triangles, if it does.
+fn waiting_ui(ui: &mut Ui, panel: &Panel<'_>) {
+    let blend = &panel.inspected().blend;
+    if blend.mode_in_space(panel.session.n_axes()) == blend.mode {
+        return;
+    }
+    let waits = RichText::new(axes::waits(name(blend.mode))).small().color(tokens(ui.ctx()).warning);
+    ui.add(Label::new(waits).wrap().selectable(false)).on_hover_text(axes::NEEDS_TRIANGLES);
 }
 
 fn name(mode: Mode) -> &'static str {

@@ -4,6 +4,7 @@ mod canvas_menu;
 mod drop_ui;
 mod estimates_ui;
 mod map;
+mod no_sites_ui;
 mod path_tool;
 mod points_ui;
 mod site_labels;
@@ -26,11 +27,12 @@ use self::drop_ui::drop_ui;
 use self::estimates_ui::{ellipse_ui, site_ellipses_ui};
 pub use self::map::ShownMap;
 use self::map::map_ui;
+use self::no_sites_ui::no_sites_ui;
 pub use self::path_tool::PathTool;
 use self::path_tool::{path_line, path_marker, path_points};
 use self::points_ui::authored_points_ui;
 use self::sites_ui::sites_ui;
-use self::slice::legend_ui;
+use self::slice::{legend, legend_ui};
 use self::status_line::foot_ui;
 use self::tool_bar::tool_bar;
 use self::view::follow_view;
@@ -132,7 +134,8 @@ pub fn canvas_ui(
     words.extend(source);
     // In a narrow canvas, the strip below the items has the legend.
     let below = source.map(|source| pos2(corner.x, source.bottom() + LEGEND_GAP));
-    let legend = below.and_then(|below| legend_ui(ui, below, panel, t));
+    let lines = legend(panel, map);
+    let legend = below.and_then(|below| legend_ui(ui, below, &lines, t));
     words.extend(legend);
     // Names of textures keep clear of the controls, too.
     words.extend(state.bar);
@@ -162,12 +165,7 @@ pub fn canvas_ui(
     let sites = sites_ui(ui, axes, panel, tool, &words, map.is_some(), t);
     commands.extend(sites.commands);
     state.pointed = sites.pointed;
-    if panel.session.space().sites().is_empty() {
-        let font = FontId::proportional(15.0);
-        let message =
-            if panel.session.textures().is_empty() { strings::NO_TEXTURES } else { strings::NO_PLACES };
-        ui.painter().text(axes.rect.center(), Align2::CENTER_CENTER, message, font, t.warning);
-    }
+    commands.extend(no_sites_ui(ui, axes, panel, t));
     commands.extend(authored_points_ui(ui, axes, panel, tool, &sites.covered, t));
     commands.extend(path_points(ui, axes, panel, tool, t));
     path_marker(ui, axes, panel, t);
@@ -181,7 +179,8 @@ pub fn canvas_ui(
     commands.extend(drop_ui(ui, axes, outer, panel, t));
     commands.extend(canvas_menu(&background, axes, panel, map));
     let asks_for_path = state.tool.is_on && panel.project.texture().path.is_none();
-    commands.extend(foot_ui(ui, outer, &words, panel, [asks_for_path, state.is_narrow], t));
+    let lines: &[String] = if state.is_narrow { &lines } else { &[] };
+    commands.extend(foot_ui(ui, outer, &words, panel, (asks_for_path, lines), t));
     commands
 }
 

@@ -9,6 +9,7 @@ use crate::author::axis_sliders::axis_sliders;
 use crate::author::blend_choice::blend_ui;
 use crate::author::details::details_ui;
 use crate::author::locks::lock_button;
+use crate::author::lost_pins::lost_pins_ui;
 use crate::author::shape_ui::shape_ui;
 use crate::author::solo::solo_button;
 use crate::author::texture_picture::picture_ui;
@@ -131,6 +132,7 @@ fn settings_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     commands.extend(axis_sliders(ui, panel));
     ui.add_space(GROUP_GAP);
     commands.extend(blend_ui(ui, panel));
+    lost_pins_ui(ui, panel);
     commands.extend(shape_ui(ui, panel));
     commands
 }

@@ -3,12 +3,10 @@
 use crate::choices::textures::{End, Region};
 use std::collections::{BTreeMap, BTreeSet};
 
-use shagreen_core::space::SpacePoint;
+use shagreen_core::space::{MIDDLE, SpacePoint};
 
 /// Distance from the authored point that still counts as near, in axis units (0 to 100).
 pub(crate) const NEAR: f64 = 25.0;
-/// Coordinate at which the upper half of an axis begins.
-const MIDDLE: f64 = 50.0;
 
 impl Region {
     /// In the order of the menu.

@@ -47,9 +47,9 @@ pub(crate) fn lock_button(ui: &Ui, panel: &Panel<'_>, texture: usize, area: Rect
     is_clicked.then(|| edit(panel, texture))
 }
 
-/// Whether a texture can be pinned: it has a position, and the interpolation mode uses a field.
+/// Whether a texture can be pinned or unpinned: it has a position or is pinned, and the interpolation mode uses a field.
 pub(crate) fn can_lock(panel: &Panel<'_>, texture: usize) -> bool {
-    panel.can_lock() && panel.session.position(texture).is_some()
+    panel.can_lock() && (panel.session.position(texture).is_some() || panel.is_locked(texture))
 }
 
 /// Draws the menu entry that pins or unpins a texture.

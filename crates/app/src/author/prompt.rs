@@ -152,13 +152,13 @@ impl Prompts {
     }
 
     /// Executes a prompt command, except the one that takes a material: that is an edit. Words replace the running job;
-    /// photos wait for it to finish. `texture` is the selected one, `poles` are the labels at both ends of each axis.
-    /// Returns the prompt to be remembered.
+    /// photos wait for it to finish. `texture` is the selected one, `axes` are the names of the axes of the space. Returns the
+    /// prompt to be remembered.
     pub(crate) fn carry_out(
         &mut self,
         command: PromptCommand,
         texture: &AuthoredTexture,
-        poles: &[[String; 2]],
+        axes: &[String],
         ctx: &Context,
     ) -> Option<KeptPrompt> {
         let (prompt, seed, replaces) = match command {
@@ -171,12 +171,12 @@ impl Prompts {
             PromptCommand::Look(sources) => {
                 let photos = sources.into_iter().map(|source| Wanted::Photo { source, prompt: None });
                 self.waiting.extend(photos);
-                self.look_at_next(poles, ctx);
+                self.look_at_next(axes, ctx);
                 return None;
             }
             PromptCommand::LookWith { photo, prompt } => {
                 self.waiting.push_back(Wanted::Photo { source: photo, prompt: Some(prompt) });
-                self.look_at_next(poles, ctx);
+                self.look_at_next(axes, ctx);
                 return None;
             }
             PromptCommand::TakeMaterial(_) => return None,
@@ -200,16 +200,16 @@ impl Prompts {
             seed,
             by_diffusion: self.chosen_diffusion().is_some(),
         });
-        self.begin(Wanted::Words { prompt, seed }, replaces, poles, ctx);
+        self.begin(Wanted::Words { prompt, seed }, replaces, axes, ctx);
         kept
     }
 
     /// Starts with the first waiting photo if no job is running.
-    pub(crate) fn look_at_next(&mut self, poles: &[[String; 2]], ctx: &Context) {
+    pub(crate) fn look_at_next(&mut self, axes: &[String], ctx: &Context) {
         if self.job.is_none()
             && let Some(photo) = self.waiting.pop_front()
         {
-            self.begin(photo, None, poles, ctx);
+            self.begin(photo, None, axes, ctx);
         }
     }
 
@@ -217,7 +217,7 @@ impl Prompts {
         &mut self,
         wanted: Wanted,
         replaces: Option<(u32, Arc<Picture>)>,
-        poles: &[[String; 2]],
+        axes: &[String],
         ctx: &Context,
     ) {
         let maker = Maker {
@@ -225,7 +225,7 @@ impl Prompts {
             networks: self.networks.clone(),
             diffusion: self.chosen_diffusion().cloned(),
         };
-        self.job = Some(Job::begin(wanted, replaces, maker, axis_names(poles), ctx));
+        self.job = Some(Job::begin(wanted, replaces, maker, axes.to_vec(), ctx));
     }
 
     /// Result of the job once it has finished, or why it failed.
@@ -288,9 +288,4 @@ impl Prompts {
 /// Whether a texture has this key and still the very same picture.
 pub(crate) fn has_still(texture: &AuthoredTexture, key: u32, picture: &Arc<Picture>) -> bool {
     texture.key == key && texture.picture.as_ref().is_some_and(|of| Arc::ptr_eq(of, picture))
-}
-
-/// Names of the axes, made from the labels at both ends of each.
-pub(crate) fn axis_names(poles: &[[String; 2]]) -> Vec<String> {
-    poles.iter().map(|ends| ends.join("-")).collect()
 }

@@ -74,8 +74,9 @@ fn place_button(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Option<Comman
         return None;
     }
     let entry = panel.project.joined.get(joined)?;
-    // A built space and chosen attributes place only what has been rated.
-    let is_of_files = panel.project.space.is_none() && panel.project.axes.is_none();
+    // A built space places only what has been rated, and an estimate does not replace a position on other axes.
+    let is_of_files =
+        panel.project.space.is_none() && (panel.project.axes.is_none() || entry.place.is_none());
     let is_slow_enough = entry.model.rate().0 <= panel.session.space_rate_hz();
     let can_place = is_of_files && is_slow_enough && can_estimate(panel.session.library());
     let button = ui.add_enabled(can_place, Button::new(words::ESTIMATE_PLACE));

@@ -164,7 +164,8 @@ fn text_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize, area: Rect, end: f32)
     if panel.is_locked(texture) {
         let badge = picture.right_bottom() - vec2(6.0, 7.0);
         ui.painter().circle_filled(badge, 8.5, t.panel);
-        lock_mark(ui.painter(), badge, true, t.text);
+        let color = if panel.has_lost_pin(texture) { t.warning } else { t.text };
+        lock_mark(ui.painter(), badge, true, color);
     }
     let room = Rect::from_min_max(pos2(picture.right() + 8.0, area.top() + 2.0), pos2(end, area.bottom()));
     let mut text = ui.new_child(UiBuilder::new().max_rect(room).layout(Layout::top_down(egui::Align::Min)));
@@ -176,6 +177,7 @@ fn text_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize, area: Rect, end: f32)
     let below = match panel.session.parent_weight(texture) {
         Some(_) if panel.solo().is_some() => strings::HEARD_ALONE.to_owned(),
         Some(weight) => strings::of_the_blend(100.0 * weight),
+        None if panel.has_lost_pin(texture) => words::LOST_PIN.to_owned(),
         None if entry.provenance == Provenance::Restricted && !is_placed => {
             format!("{} · {}", strings::NOT_PLACED_YET, strings::import::RESTRICTED_SHORT)
         }
@@ -198,7 +200,8 @@ fn help(panel: &Panel<'_>, texture: usize) -> String {
         help = format!("{help}\n{only_in}");
     }
     if panel.is_locked(texture) {
-        help = format!("{help}\n{}", strings::LOCKED);
+        let pinned = if panel.has_lost_pin(texture) { words::LOST_PIN_HELP } else { strings::LOCKED };
+        help = format!("{help}\n{pinned}");
     }
     format!("{}\n{help}\n{}", entry.name, words::CLICK_HELP)
 }

@@ -26,6 +26,8 @@ pub(crate) struct AuthoredSources {
     stroke: Option<Arc<Track>>,
     model_rate: Hertz,
     contact: Contact,
+    /// Names of the axes of all spaces.
+    axes: Vec<String>,
     /// The spaces of the textures.
     spaces: Vec<SpaceSource>,
     /// The textures, and the indices of their spaces.
@@ -80,6 +82,7 @@ impl Session {
             stroke,
             model_rate,
             contact,
+            axes: self.axes().to_vec(),
             spaces,
             textures,
         })
@@ -125,7 +128,7 @@ impl AuthoredSources {
             }
             let sounding = Sounding::Mix(voices, authored.mixing());
             let file = self.context(space.source).signal(&authored, sounding, &authored.parents);
-            let mut sidecar = placed(file.sidecar, Some(&authored));
+            let mut sidecar = placed(file.sidecar, Some(&authored), &self.axes);
             sidecar.name = Some(texture.name.clone());
             Ok(SignalFile { sidecar, ..file })
         };

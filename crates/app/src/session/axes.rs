@@ -3,22 +3,30 @@
 use std::borrow::Cow;
 
 use shagreen_core::space::authoring::Blending;
-use shagreen_core::space::{SpacePoint, local_mean};
+use shagreen_core::space::{SpacePoint, with_local_means};
 use shagreen_formats::project::BlendChoice;
 
 use super::Session;
-use super::loaded_textures::positions;
+use super::loaded_textures::{positions, positions_without};
 
 /// Number of axes of the canvas. Spaces with more have no triangles.
 const CANVAS_AXES: usize = 2;
-/// Coordinate on an axis on which no texture has one.
-const MIDDLE: f64 = 50.0;
 
 impl Session {
     /// Names of the axes of the space, as in the project: one to six, the horizontal one of the canvas first, then the vertical
     /// one.
     pub fn axes(&self) -> &[String] {
         &self.textures.axis_names
+    }
+
+    /// Names of the chosen axes on which no texture has a coordinate.
+    pub fn missing_axes(&self) -> Vec<&str> {
+        // Coordinates on the axes of the positions are not looked up by name.
+        if self.textures.library.axis_names() == self.textures.axis_names {
+            return Vec::new();
+        }
+        let is_missing = |name: &&String| self.textures.columns.source(name).is_none();
+        self.textures.axis_names.iter().filter(is_missing).map(String::as_str).collect()
     }
 
     /// Number of axes of the space, one to six.
@@ -34,6 +42,12 @@ impl Session {
     /// Positions of all textures on the axes of the space, by index.
     pub(crate) fn positions(&self) -> Vec<Option<SpacePoint>> {
         positions(&self.textures.places)
+    }
+
+    /// Positions of the textures that take part in all authored textures, by index: local means follow from them.
+    pub(crate) fn common_positions(&self) -> Vec<Option<SpacePoint>> {
+        let own = self.textures.own.left_out(self.textures(), |_| false);
+        positions_without(&self.textures.places, &own)
     }
 
     /// Whether the canvas shows a slice, because the space has more axes than it.
@@ -59,24 +73,8 @@ impl Session {
     /// Point with these coordinates, one for each axis. An axis without one has the local mean of the textures: the mean of
     /// those near the point on the other axes.
     pub fn completed(&self, told: &[Option<f64>]) -> SpacePoint {
-        let known: Vec<(usize, f64)> =
-            told.iter().enumerate().filter_map(|(axis, value)| Some((axis, (*value)?))).collect();
-        let coordinates: Vec<f64> = known.iter().map(|(_, value)| *value).collect();
-        // Without any coordinate, no texture is nearer than another.
-        let at = SpacePoint::of(&coordinates).ok();
-        let sites: Vec<SpacePoint> = self.positions().into_iter().flatten().collect();
-        let on_known = |site: &SpacePoint| {
-            let coordinates: Option<Vec<f64>> = known.iter().map(|(axis, _)| site.get(*axis)).collect();
-            SpacePoint::of(&coordinates?).ok()
-        };
-        let positions: Vec<Option<SpacePoint>> = sites.iter().map(on_known).collect();
-        let mean = |axis: usize| {
-            let values: Vec<Option<f64>> = sites.iter().map(|site| site.get(axis)).collect();
-            let near = at.and_then(|at| local_mean(&positions, &values, at));
-            near.or_else(|| mean_of(&values)).unwrap_or(MIDDLE)
-        };
-        let whole = told.iter().enumerate().map(|(axis, value)| value.unwrap_or_else(|| mean(axis)));
-        SpacePoint::of(&whole.collect::<Vec<f64>>()).unwrap_or_else(|_| self.fitted(SpacePoint::default()))
+        let whole = with_local_means(&self.common_positions(), told);
+        SpacePoint::of(&whole).unwrap_or_else(|_| self.fitted(SpacePoint::default()))
     }
 
     /// A point with the local mean of the textures on one axis.
@@ -86,21 +84,5 @@ impl Session {
             (0..at.n_axes()).map(|each| at.get(each).filter(|_| each != axis)).collect();
         let mean = self.completed(&told).get(axis);
         mean.map_or(at, |mean| at.with(axis, mean))
-    }
-}
-
-/// Mean of the known values; `None` without any.
-fn mean_of(values: &[Option<f64>]) -> Option<f64> {
-    let known: Vec<f64> = values.iter().flatten().copied().collect();
-    (!known.is_empty()).then(|| known.iter().sum::<f64>() / known.len() as f64)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::mean_of;
-
-    #[test]
-    fn unknown_values_have_no_mean() {
-        assert_eq!([mean_of(&[None]), mean_of(&[Some(2.0), None, Some(4.0)])], [None, Some(3.0)]);
     }
 }

@@ -8,12 +8,13 @@ use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Place, TextureEntry};
 use shagreen_formats::project::{AuthoredTexture, Project};
 use shagreen_studio::authoring::plane_at;
+use shagreen_studio::axes::list_places;
 use shagreen_studio::report::Warnings;
 
 use super::audible::Audible;
 use super::loaded_textures::{rate_in, rate_of_space};
 use super::messages::Said;
-use super::places::{names_of, places, poles_of};
+use super::places::{names_of, poles_of};
 use super::{Session, Spectra, drawn_frequencies};
 
 impl Session {
@@ -38,10 +39,12 @@ impl Session {
         };
         let has_same_own = self.textures.own_ids == project.own;
         let has_same_axes = self.textures.axes == project.axes;
-        if !(has_same_textures && has_same_space) {
+        let has_same_list =
+            has_same_textures && has_same_space && self.textures.coordinates == project.coordinates;
+        if !has_same_list {
             self.textures.columns.clear();
         }
-        if !(has_same_textures && has_same_names && has_same_space && has_same_own && has_same_axes) {
+        if !(has_same_list && has_same_names && has_same_own && has_same_axes) {
             self.take(project, &vec![true; self.textures.opened.n_textures() + n_same]);
         }
         self.follow_space(&heard.unwrap_or(project.texture()).blend);
@@ -111,7 +114,8 @@ impl Session {
         self.textures.opened.restore(&mut self.textures.library);
         self.textures.library = project.textures_on(std::mem::take(&mut self.textures.library));
         let axes = project.axes.as_deref();
-        self.textures.places = places(&self.textures.library, axes, &mut self.textures.columns);
+        let columns = &mut self.textures.columns;
+        self.textures.places = list_places(&self.textures.library, axes, columns, &project.coordinates);
         self.textures.own = project.own_textures(self.textures.library.textures.len());
         let rate_before_hz = self.textures.space_rate_hz;
         self.textures.space_rate_hz = self.rate_of_places(project).0;
@@ -160,6 +164,7 @@ impl Session {
             (project.joined.clone(), project.space.clone(), project.axes.clone());
         self.textures.renamed.clone_from(&project.renamed);
         self.textures.own_ids.clone_from(&project.own);
+        self.textures.coordinates.clone_from(&project.coordinates);
         self.sound.player.wanted = None;
         if let Some(felt) = &mut self.sound.felt {
             felt.is_new = true;

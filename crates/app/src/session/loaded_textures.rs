@@ -9,9 +9,10 @@ use shagreen_core::texture::rate::highest_rate;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, Place, TextureEntry};
 use shagreen_formats::placed_space::PlacedSpace;
-use shagreen_formats::project::{OwnTextures, ProjectLibrary};
+use shagreen_formats::project::{AddedCoordinates, OwnTextures, ProjectLibrary};
+use shagreen_studio::axes::AxisColumns;
 
-use super::places::{AxisColumns, Opened};
+use super::places::Opened;
 use super::planes_worker::PlanesWorker;
 
 /// The textures of the library and of the project, by one index.
@@ -29,6 +30,8 @@ pub(super) struct Textures {
     pub(super) own_ids: BTreeSet<String>,
     /// These textures, by index.
     pub(super) own: OwnTextures,
+    /// Coordinates of added textures where nothing else gives one.
+    pub(super) coordinates: AddedCoordinates,
     /// New names by id.
     pub(super) renamed: BTreeMap<String, String>,
     /// The space that gave the textures their positions.

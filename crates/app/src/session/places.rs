@@ -1,12 +1,7 @@
-//! Positions of the textures: from the library file, from a space in use, or on axes that the project chooses.
+//! What a library states of its textures, and the names and words of its axes.
 
-use shagreen_core::people::ratings::poles;
-use shagreen_core::space::signal_axes::SignalAxis;
-use shagreen_core::space::{LabelSource, SpacePoint};
-use shagreen_formats::library::{Attributes, Library, Place, TextureEntry};
-use shagreen_formats::placed_space::is_dimension_name;
-use shagreen_formats::project::plain_axis_name;
-use shagreen_studio::axes::{axis_poles, axis_values};
+use shagreen_formats::library::{Attributes, Library, Place};
+use shagreen_studio::axes::axis_poles;
 
 /// Names, positions, attributes and header of a library as opened, to be restored.
 pub(super) struct Opened {
@@ -50,74 +45,6 @@ impl Opened {
     }
 }
 
-/// Coordinates of all textures on one axis; `None` if nothing has the name of the axis.
-type Column = Option<Vec<Option<f64>>>;
-
-/// Coordinates of the textures on the axes in use, by name. They are kept until the textures or their positions change: an
-/// axis that is computed from the vibration takes about a millisecond a texture.
-#[derive(Default)]
-pub(super) struct AxisColumns(Vec<(String, Column)>);
-
-impl AxisColumns {
-    /// Forgets the coordinates, because textures or their positions have changed.
-    pub(super) fn clear(&mut self) {
-        self.0.clear();
-    }
-
-    /// Computes the coordinates that are missing, and forgets those of other axes.
-    fn follow(&mut self, library: &Library, axes: &[String]) {
-        self.0.retain(|(name, _)| axes.contains(name));
-        for name in axes {
-            if !self.0.iter().any(|(known, _)| known == name) {
-                self.0.push((name.clone(), axis_values(library, name)));
-            }
-        }
-    }
-
-    fn coordinate(&self, name: &str, texture: usize) -> Option<f64> {
-        let (_, column) = self.0.iter().find(|(known, _)| known == name)?;
-        *column.as_ref()?.get(texture)?
-    }
-}
-
-/// Position of each texture: on the axes that `axes` names, otherwise the texture's own. A texture without a coordinate on one
-/// of the axes has no position.
-pub(super) fn places(
-    library: &Library,
-    axes: Option<&[String]>,
-    columns: &mut AxisColumns,
-) -> Vec<Option<Place>> {
-    let names = library.axis_names();
-    let Some(axes) = axes.filter(|axes| names != **axes) else {
-        // A texture that was added on another number of axes would leave no space at all.
-        let is_whole = |place: &Place| place.at.n_axes() == names.len();
-        return library.textures.iter().map(|texture| texture.place.filter(is_whole)).collect();
-    };
-    columns.follow(library, axes);
-    let has_own_plane = axes.len() >= 2 && names.len() >= 2 && names[..2] == axes[..2];
-    let place = |(index, texture): (usize, &TextureEntry)| {
-        let coordinates: Option<Vec<f64>> = axes.iter().map(|name| columns.coordinate(name, index)).collect();
-        let own = texture.place.filter(|_| has_own_plane);
-        let place = Place::new(SpacePoint::of(&coordinates?).ok()?, source(&names, texture, axes));
-        Some(Place { deviation: own.and_then(|own| own.deviation), ..place })
-    };
-    library.textures.iter().enumerate().map(place).collect()
-}
-
-/// Source of a position on these axes: that of the first one that is not computed from the vibration. `names` are the axes of
-/// the texture's own position.
-fn source(names: &[&str], texture: &TextureEntry, axes: &[String]) -> LabelSource {
-    let of_axis = |name: &String| {
-        let own = texture.place.filter(|_| names.contains(&name.as_str())).map(|place| place.source);
-        let rated = || {
-            let attributes = texture.attributes.as_ref()?;
-            attributes.get(plain_axis_name(name)).map(|_| attributes.source)
-        };
-        own.or_else(rated)
-    };
-    axes.iter().find_map(of_axis).unwrap_or(LabelSource::PhysicalLabels)
-}
-
 /// Names of the axes in use: those of the project if it chooses any, or else those of the positions.
 pub(super) fn names_of(library: &Library, axes: Option<&[String]>) -> Vec<String> {
     match axes {
@@ -128,21 +55,18 @@ pub(super) fn names_of(library: &Library, axes: Option<&[String]>) -> Vec<String
 
 /// Words at both ends of the axes with these names. An attribute may have one word only.
 pub(super) fn poles_of(names: &[String]) -> Vec<[String; 2]> {
-    let ends = |name: &String| {
-        let plain = plain_axis_name(name);
-        let is_named = SignalAxis::from_name(name).is_none() && !is_dimension_name(plain);
-        if is_named { poles(plain) } else { axis_poles(name) }
-    };
-    names.iter().map(ends).collect()
+    names.iter().map(|name| axis_poles(name)).collect()
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{AxisColumns, Opened, names_of, places, poles_of};
+    use super::{Opened, names_of, poles_of};
     use shagreen_core::space::LabelSource;
     use shagreen_core::space::signal_axes::SignalAxis;
     use shagreen_formats::library::{Attribute, Attributes, Library, Place};
+    use shagreen_formats::project::AddedCoordinates;
     use shagreen_formats::starter::starter_library;
+    use shagreen_studio::axes::{AxisColumns, list_places};
 
     fn attributes(values: &[(&str, f64)]) -> Attributes {
         let value = |(name, value): &(&str, f64)| Attribute { name: (*name).to_owned(), value: *value };
@@ -154,7 +78,7 @@ mod tests {
     }
 
     fn placed(library: &Library, axes: Option<&[String]>) -> Vec<Option<Place>> {
-        places(library, axes, &mut AxisColumns::default())
+        list_places(library, axes, &mut AxisColumns::default(), &AddedCoordinates::default())
     }
 
     #[test]
@@ -174,7 +98,10 @@ mod tests {
         let odd = names(&["non-stick - sticky", "warm"]);
         assert_eq!(of(Some(&odd)), [["non-stick", "sticky"], ["warm", ""]]);
         let computed = names(&["centroid", "dimension 2", "attribute:hard-soft"]);
-        assert_eq!(of(Some(&computed)), [["dull", "bright"], ["low", "high"], ["hard", "soft"]]);
+        assert_eq!(
+            of(Some(&computed)),
+            [["dull", "bright"], ["low dimension 2", "high dimension 2"], ["hard", "soft"]]
+        );
         assert_eq!(of(None), [["rough", "smooth"], ["hard", "soft"]]);
         library.axes = Some(axes);
         assert_eq!(poles_of(&names_of(&library, None)), [["warm", "cold"], ["flat", "bumpy"]]);

@@ -11,6 +11,7 @@ use shagreen_core::texture::shape::Shape;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_device::track::Track;
 use shagreen_formats::library::{Library, Provenance, TextureEntry};
+use shagreen_formats::named_point::named_coordinates;
 use shagreen_formats::project::{AuthoredTexture, Project};
 use shagreen_formats::wav::{ParentV1, SidecarV1};
 
@@ -62,7 +63,7 @@ impl Session {
         let texture = alone.map(|texture| self.textures.library.textures[texture].id.clone());
         let file = self.signal_context(contact).signal(authored, sounding, &parents);
         let sidecar = SidecarV1 { texture, ..file.sidecar };
-        Ok(SignalFile { sidecar: placed(sidecar, place), ..file })
+        Ok(SignalFile { sidecar: placed(sidecar, place, self.axes()), ..file })
     }
 
     /// Speeds and forces of the voices of the interpolated texture, and their weights: those that play, unless the previous
@@ -216,12 +217,13 @@ fn of_bench(signal: &Arc<BenchSignal>) -> SignalFile {
     SignalFile { sounding, contact, stroke, tap, model_rate, sidecar, restricted }
 }
 
-/// The sidecar with the point of an authored texture.
-pub(super) fn placed(sidecar: SidecarV1, authored: Option<&Authored>) -> SidecarV1 {
+/// The sidecar with the point of an authored texture on the axes with these names.
+pub(super) fn placed(sidecar: SidecarV1, authored: Option<&Authored>, axes: &[String]) -> SidecarV1 {
     let Some(authored) = authored else { return sidecar };
     let at = authored.location.at;
     SidecarV1 {
         at: Some(at.coordinates().to_vec()),
+        at_named: Some(named_coordinates(axes.iter().map(String::as_str), at)),
         clamped: authored.location.clamped,
         extrapolated: authored.is_extrapolated,
         ..sidecar

@@ -149,13 +149,13 @@ fn another_library_is_opened_and_the_first_comes_back() {
     assert_eq!(session.textures()[..25], read.textures[..]);
 }
 
-/// Opening a library resets the space in use, the axes and solo, which belong to the previous textures.
+/// Opening a library resets the space in use, axes that it does not have, and solo, which belong to the previous textures.
 #[test]
 fn a_library_is_opened_as_its_file_has_it() {
     let ctx = egui::Context::default();
     let begun = Project { library: ProjectLibrary::BuiltIn(BuiltIn::Simulated), ..new_project() };
     let mut session = Session::new(begun.library.clone()).unwrap();
-    let axes = set_axes(&begun, &session, &["hard-soft", "rough-smooth"]);
+    let axes = set_axes(&begun, &session, &["hard-soft", "flat-bumpy"]);
     let id = session.textures()[3].id.clone();
     let edits = [Edit::SetMode(Mode::Shared), axes, Edit::Solo(Some(id))];
     let turned = edits.into_iter().fold(begun, |project, edit| edited(&project, edit));

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use egui::{Button, Context, Label, RichText, ScrollArea, Ui};
 use shagreen_core::space::MOST_AXES;
 use shagreen_formats::library::Library;
-use shagreen_formats::project::plain_axis_name;
+use shagreen_formats::project::is_same_axis;
 use shagreen_studio::axes::{AxisPreset, AxisSource, axis_values, known_axes, presets};
 
 use self::evaluation::Evaluation;
@@ -43,6 +43,7 @@ struct Offered {
 
 /// What can be chosen.
 struct Offer {
+    /// The axes that were chosen when the sheet opened, in their order, then the others. The order stays while the sheet is open.
     axes: Vec<Offered>,
     presets: Vec<AxisPreset>,
 }
@@ -76,7 +77,8 @@ impl AxesSheet {
         let mut reading = LatestJob::default();
         let (textures, chosen) = (Arc::clone(&library), axes.to_vec());
         reading.ask(ctx, move || offer_of(&textures, &chosen));
-        Self { library, chosen: axes.to_vec(), reading, offer: None, evaluation: Evaluation::default() }
+        let evaluation = Evaluation::last(&library, ctx);
+        Self { library, chosen: axes.to_vec(), reading, offer: None, evaluation }
     }
 
     /// Draws the sheet; returns the requested commands.
@@ -84,7 +86,7 @@ impl AxesSheet {
         if let Some(done) = self.reading.collect(ctx) {
             self.offer = Some(done.map_err(|_| strings::BROKEN));
         }
-        self.evaluation.collect();
+        self.evaluation.collect(&self.library, ctx);
         sheet(ctx, "axes of the space", |ui| {
             ui.set_width(WIDTH);
             self.content_ui(ui)
@@ -206,6 +208,7 @@ fn offer_of(library: &Library, chosen: &[String]) -> Offer {
             axes.push(Offered { source: is_attribute.then_some(AxisSource::Attribute), ..axis });
         }
     }
+    axes.sort_by_key(|axis| chosen.iter().position(|name| *name == axis.name).unwrap_or(chosen.len()));
     Offer { axes, presets: presets(library) }
 }
 
@@ -218,9 +221,9 @@ fn n_placed(offer: &Offer, chosen: &[String], n: usize) -> usize {
     (0..n).filter(|texture| chosen.iter().all(|name| value(name, *texture).is_some())).count()
 }
 
-/// Whether one of the chosen axes has this name, or is an attribute of it.
+/// Whether one of the chosen axes has this name, or is an attribute of it ([`is_same_axis`]).
 fn is_chosen(chosen: &[String], name: &str) -> bool {
-    chosen.iter().any(|known| plain_axis_name(known) == plain_axis_name(name))
+    chosen.iter().any(|known| is_same_axis(known, name))
 }
 
 /// Carries out a change: there are always one to six different axes.
@@ -259,7 +262,7 @@ mod tests {
         let mut chosen = names(&["a"]);
         changed(&mut chosen, Change::Remove("a".to_owned()));
         assert_eq!(chosen, ["a"]);
-        for name in ["b", "b", "attribute:a", "c", "d", "e", "f", "g"] {
+        for name in ["b", "b", "B", "attribute:a", "attribute:A", "c", "d", "e", "f", "g"] {
             changed(&mut chosen, Change::Add(name.to_owned()));
         }
         assert_eq!(chosen, ["a", "b", "c", "d", "e", "f"]);
@@ -285,6 +288,8 @@ mod tests {
         let n = library.textures.len();
         assert_eq!(n_placed(&offer, &chosen, n), 0);
         assert_eq!(n_placed(&offer, &names(&["rough-smooth", "flat-bumpy", "centroid"]), n), n);
+        let order: Vec<&str> = offer.axes.iter().map(|axis| axis.name.as_str()).collect();
+        assert_eq!(order[..3], ["attribute:rough-smooth", "sour-sweet", "rough-smooth"]);
         assert_eq!(offer.presets.len(), 2);
         assert_eq!(offer_of(&starter_library().unwrap(), &[]).presets.len(), 1);
     }

@@ -20,7 +20,7 @@ use crate::state::blank_file::BlankFile;
 use crate::state::document::CREATED_BY;
 use crate::state::figure_file::FigureFile;
 use crate::state::stroke_file::StrokeFile;
-use crate::strings::{build, document, import as strings, stroke};
+use crate::strings::{axes, build, document, import as strings, stroke};
 
 /// State of the open sheet.
 pub struct SaveSheet {
@@ -46,7 +46,10 @@ enum State {
 
 /// What the sheet saves.
 enum Subject {
-    Library,
+    /// The library, with the positions that it states; `has_other_axes` if the project chooses other axes.
+    Library {
+        has_other_axes: bool,
+    },
     Figure(FigureFile),
     Blank(BlankFile),
     Stroke(StrokeFile),
@@ -54,9 +57,9 @@ enum Subject {
 }
 
 impl SaveSheet {
-    /// Sheet that saves the library.
-    pub fn library() -> Self {
-        Self::of(Subject::Library, String::new())
+    /// Sheet that saves the library of a project.
+    pub fn library(project: &Project) -> Self {
+        Self::of(Subject::Library { has_other_axes: project.axes.is_some() }, String::new())
     }
 
     /// Sheet that saves a figure, by default in `folder`.
@@ -93,7 +96,7 @@ impl SaveSheet {
     /// Folder in which a figure, stroke or blank table was saved.
     pub fn folder_of_export(&self) -> Option<&Path> {
         let State::Saved(path) = &self.state else { return None };
-        let is_export = !matches!(self.subject, Subject::Library | Subject::Project(_));
+        let is_export = !matches!(self.subject, Subject::Library { .. } | Subject::Project(_));
         is_export.then(|| Path::new(path).parent())?
     }
 
@@ -133,7 +136,7 @@ impl SaveSheet {
         let t = tokens(ui.ctx());
         let mut commands = Vec::new();
         let (title, name, hint) = match &self.subject {
-            Subject::Library => (strings::SAVE_TITLE, strings::SAVE_PATH, strings::SAVE_HINT),
+            Subject::Library { .. } => (strings::SAVE_TITLE, strings::SAVE_PATH, strings::SAVE_HINT),
             Subject::Figure(_) => (build::SAVE_TITLE, build::SAVE_PATH, build::SAVE_HINT),
             Subject::Blank(_) => (build::BLANK_TITLE, build::BLANK_PATH, build::BLANK_HINT),
             Subject::Stroke(_) => (stroke::SAVE_TITLE, stroke::SAVE_PATH, stroke::SAVE_HINT),
@@ -151,7 +154,7 @@ impl SaveSheet {
         }
         // A figure contains names and numbers of textures, but no texture.
         let restricted: Vec<&str> = match &self.subject {
-            Subject::Library => library.restricted().map(|entry| entry.name.as_str()).collect(),
+            Subject::Library { .. } => library.restricted().map(|entry| entry.name.as_str()).collect(),
             Subject::Project(project) => project.restricted().map(|entry| entry.name.as_str()).collect(),
             Subject::Figure(_) | Subject::Blank(_) | Subject::Stroke(_) => Vec::new(),
         };
@@ -183,7 +186,11 @@ impl SaveSheet {
     fn message(&self, library: &Library, t: &Tokens) -> (String, Color32) {
         match &self.state {
             State::Asking => match &self.subject {
-                Subject::Library => (strings::to_save(library.textures.len()), t.text_weak),
+                Subject::Library { has_other_axes } => {
+                    let of_axes = has_other_axes.then(|| axes::stored(&library.axis_names()));
+                    let what = [Some(strings::to_save(library.textures.len())), of_axes];
+                    (what.into_iter().flatten().collect::<Vec<_>>().join(" "), t.text_weak)
+                }
                 Subject::Figure(figure) => {
                     (build::to_save(&figure.title(), figure.format.word()), t.text_weak)
                 }
@@ -195,7 +202,7 @@ impl SaveSheet {
                 }
             },
             State::Exists => match &self.subject {
-                Subject::Library => (strings::EXISTS.to_owned(), t.warning),
+                Subject::Library { .. } => (strings::EXISTS.to_owned(), t.warning),
                 Subject::Figure(figure) => (build::exists(figure.format.word()), t.warning),
                 Subject::Blank(_) => (build::BLANK_EXISTS.to_owned(), t.warning),
                 Subject::Stroke(_) => (stroke::EXISTS.to_owned(), t.warning),
@@ -210,7 +217,7 @@ impl SaveSheet {
     /// Saves in the background. An existing file is replaced only with `replaces`.
     fn save(&mut self, library: &Library, replaces: bool, ctx: &Context) {
         let content = match &self.subject {
-            Subject::Library => {
+            Subject::Library { .. } => {
                 Content::Library(Box::new(Library { created_by: CREATED_BY.to_owned(), ..library.clone() }))
             }
             Subject::Figure(figure) => Content::Figure(figure.clone()),
@@ -245,7 +252,7 @@ impl Subject {
     /// Usual ending of the file's name.
     fn ending(&self) -> &'static str {
         match self {
-            Self::Library => "json",
+            Self::Library { .. } => "json",
             Self::Figure(figure) => figure.format.ending(),
             Self::Blank(file) => file.ending(),
             Self::Stroke(_) => "csv",

@@ -2,13 +2,10 @@
 
 use std::sync::Arc;
 
-use shagreen_core::space::{SpacePoint, local_mean};
-use shagreen_formats::library::{Library, USUAL_AXES};
-use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
+use shagreen_core::space::{LocalMean, MIDDLE, SpacePoint};
+use shagreen_formats::library::Library;
+use shagreen_formats::project::{AddedCoordinates, AuthoredTexture, Project, different_axes};
 use shagreen_studio::axes::axis_values;
-
-/// Coordinate on an axis on which no texture has one.
-const MIDDLE: f64 = 50.0;
 
 /// Other axes of the space, and where the points of a project lie on them.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,14 +13,22 @@ pub struct AxesChange {
     /// Names of the axes; `None` for those of the positions.
     axes: Option<Vec<String>>,
     n_axes: usize,
-    /// Each different point of the project on the axes before, and the same point on the new ones.
-    moved: Vec<(SpacePoint, SpacePoint)>,
+    /// Each authored texture of the project on the axes before, and the same one on the new axes.
+    moved: Vec<[Arc<AuthoredTexture>; 2]>,
+    /// Coordinates of added textures where nothing else gives one, on all axes that they have had.
+    coordinates: AddedCoordinates,
 }
 
 impl AxesChange {
-    /// Change to the axes with these names, one to six different ones. `library` is the list of textures of the project, and
-    /// `positions` are those of the textures on the axes before, by index. Points keep their coordinates on axes that stay; on a
-    /// new axis, they have the local mean of the textures, as in [`shagreen_studio::axes::moved_to_axes`].
+    /// Change to the axes with these names, one to six; of several names of one axis
+    /// ([`shagreen_formats::project::is_same_axis`]), the first counts. `library` is the list of textures of the project, and
+    /// `positions` are those of the textures on the axes before, by index.
+    ///
+    /// Points keep their coordinates on axes that stay. On a new axis, a point at the position of a texture has the coordinate
+    /// of this texture: of several ones, that of the first pinned one. Other points have the local mean of the textures
+    /// ([`LocalMean`]), or are in the middle where no texture has a coordinate. Added textures whose coordinates may be
+    /// estimated ([`Project::takes_estimates`]) have the local mean on a new axis on which nothing else gives one. Local means
+    /// are those of the textures that take part in all authored textures. Snapshots stay on their axes.
     pub fn new(
         project: &Project,
         library: &Library,
@@ -32,198 +37,115 @@ impl AxesChange {
     ) -> Self {
         let own: Vec<String> = library.axis_names().into_iter().map(str::to_owned).collect();
         let before = project.axes.as_ref().unwrap_or(&own);
-        // For all points together: an axis that is computed from the vibration takes about a millisecond a texture.
-        let coordinate = |name: &String| match before.iter().position(|known| known == name) {
-            Some(axis) => Coordinate::Kept(axis),
-            None => Coordinate::Mean(axis_values(library, name).unwrap_or_default()),
-        };
-        let coordinates: Vec<Coordinate> = axes.iter().map(coordinate).collect();
-        let mut moved: Vec<(SpacePoint, SpacePoint)> = Vec::new();
-        for at in points(project) {
-            if !moved.iter().any(|(known, _)| *known == at) {
-                moved.push((at, moved_to(at.on(before.len()), &coordinates, positions)));
+        let axes = different_axes(axes);
+        let mut common = positions.to_vec();
+        for texture in project.left_out(&library.textures, |_| false) {
+            if let Some(position) = common.get_mut(texture) {
+                *position = None;
             }
         }
-        Self { n_axes: axes.len(), axes: (own != *axes).then(|| axes.to_vec()), moved }
+        let mut new_axes: Vec<NewAxis> =
+            axes.iter().map(|name| NewAxis::new(name, before, library, &common)).collect();
+        let coordinates = place_added(project, library, positions, &mut new_axes);
+        let moved = |texture: &Arc<AuthoredTexture>| {
+            let is_pinned = |id: &str| texture.blend.locked.contains(id);
+            let left_out = project.left_out(&library.textures, is_pinned);
+            let is_pinned =
+                |index: &usize| library.textures.get(*index).is_some_and(|entry| is_pinned(&entry.id));
+            let after = texture.moved(|at| {
+                let at = at.on(before.len());
+                let is_there = |index: &usize| positions[*index] == Some(at) && !left_out.contains(index);
+                let mut there: Vec<usize> = (0..positions.len()).filter(is_there).collect();
+                there.sort_by_key(|index| !is_pinned(index));
+                let coordinates: Vec<f64> = new_axes.iter().map(|axis| axis.coordinate(at, &there)).collect();
+                SpacePoint::of(&coordinates).unwrap_or_else(|_| at.on(new_axes.len()))
+            });
+            [Arc::clone(texture), after]
+        };
+        let moved = project.authored.iter().map(moved).collect();
+        Self { n_axes: axes.len(), axes: (own != axes).then_some(axes), moved, coordinates }
     }
 
-    /// Sets the axes of the project and moves its points. A point that the project did not have when the change was made keeps
+    /// Sets the axes of the project and moves its points. A texture that the project did not have when the change was made keeps
     /// its first coordinates.
     pub(super) fn apply(self, project: &mut Project) {
-        let Self { axes, n_axes, moved } = self;
-        project.axes = axes;
-        let after = |at: SpacePoint| {
-            let known = moved.iter().find(|(before, _)| *before == at);
-            known.map_or_else(|| at.on(n_axes), |(_, after)| *after)
-        };
-        move_points(project, after);
+        let Self { axes, n_axes, moved, coordinates } = self;
+        let former: Vec<String> = project.axis_names().into_iter().map(str::to_owned).collect();
+        (project.axes, project.coordinates) = (axes, coordinates);
+        project.note_axes_of_snapshots(&former);
+        for texture in &mut project.authored {
+            let known = moved.iter().find(|[before, _]| Arc::ptr_eq(before, texture));
+            *texture =
+                known.map_or_else(|| texture.moved(|at| at.on(n_axes)), |[_, after]| Arc::clone(after));
+        }
     }
 }
 
-/// Where the coordinate of a point on an axis comes from.
-enum Coordinate {
-    /// The point has it on the axis with this index.
-    Kept(usize),
-    /// Local mean of these values of the textures, by index; empty if no texture has one.
-    Mean(Vec<Option<f64>>),
-}
-
-/// A point with other coordinates.
-fn moved_to(at: SpacePoint, coordinates: &[Coordinate], positions: &[Option<SpacePoint>]) -> SpacePoint {
-    let value = |coordinate: &Coordinate| match coordinate {
-        Coordinate::Kept(axis) => at.get(*axis),
-        Coordinate::Mean(values) => local_mean(positions, values, at),
-    };
-    let values: Vec<f64> = coordinates.iter().map(|of| value(of).unwrap_or(MIDDLE)).collect();
-    SpacePoint::of(&values).unwrap_or(at)
-}
-
-/// Points of all authored textures and snapshots, and of their paths.
-fn points(project: &Project) -> impl Iterator<Item = SpacePoint> {
-    let textures = project.authored.iter().chain(&project.snapshots);
-    textures.flat_map(|texture| points_of(texture))
-}
-
-fn points_of(texture: &AuthoredTexture) -> impl Iterator<Item = SpacePoint> {
-    let of_path = texture.path.iter().flat_map(|path| path.points.iter().copied());
-    std::iter::once(texture.at).chain(of_path)
-}
-
-/// Moves every point of the project; textures whose points stay are shared with its earlier states.
-fn move_points(project: &mut Project, after: impl Fn(SpacePoint) -> SpacePoint) {
-    for texture in project.authored.iter_mut().chain(&mut project.snapshots) {
-        if points_of(texture).all(|at| after(at) == at) {
+/// The coordinates of added textures after the change. On a new axis on which nothing else gives one, a texture has the one
+/// that it had there before, or the local mean at its position.
+fn place_added(
+    project: &Project,
+    library: &Library,
+    positions: &[Option<SpacePoint>],
+    axes: &mut [NewAxis],
+) -> AddedCoordinates {
+    let mut coordinates = project.coordinates.clone();
+    let n_of_library = library.textures.len().saturating_sub(project.joined.len());
+    for (index, entry) in library.textures.iter().enumerate().skip(n_of_library) {
+        let Some(at) = positions.get(index).copied().flatten() else { continue };
+        if !project.takes_estimates(index - n_of_library) {
             continue;
         }
-        let texture = Arc::make_mut(texture);
-        texture.at = after(texture.at);
-        if let Some(path) = &mut texture.path {
-            for point in &mut path.points {
-                *point = after(*point);
+        for axis in axes.iter_mut() {
+            let before = coordinates.get(&entry.id, &axis.name);
+            if let Some(value) = axis.place(index, at, before) {
+                coordinates.set(&entry.id, &axis.name, value);
             }
         }
     }
+    coordinates
 }
 
-/// Gives every point of the project as many coordinates as the positions of its textures have, after another library or space
-/// took the place of the former one: further coordinates are in the middle, or left out. Axes are not chosen.
-pub(super) fn fit_points(project: &mut Project) {
-    let n_axes = match (&project.space, &project.library) {
-        (Some(space), _) => space.axis_names().len(),
-        (None, ProjectLibrary::BuiltIn(_)) => USUAL_AXES.len(),
-        (None, ProjectLibrary::File(file)) => file.library.axis_names().len(),
-        (None, ProjectLibrary::Inside(library)) => library.axis_names().len(),
-    };
-    move_points(project, |at| at.on(n_axes));
+/// An axis after the change, and what the coordinates of points on it follow from.
+struct NewAxis {
+    name: String,
+    /// Index of the same axis before the change.
+    kept: Option<usize>,
+    /// Coordinate of each texture, by index; empty for an axis that stays or that no texture has.
+    values: Vec<Option<f64>>,
+    /// Local mean of these coordinates over the axes before.
+    mean: Option<LocalMean>,
+}
+
+impl NewAxis {
+    /// `common` are the positions of the textures that local means follow from.
+    fn new(name: &str, before: &[String], library: &Library, common: &[Option<SpacePoint>]) -> Self {
+        let kept = before.iter().position(|known| known == name);
+        let values = if kept.is_none() { axis_values(library, name) } else { None };
+        let values = values.unwrap_or_default();
+        Self { name: name.to_owned(), kept, mean: LocalMean::new(common, &values), values }
+    }
+
+    /// Gives a texture at a point of the axes before a coordinate, and returns it, if this axis is new and gives none: the one
+    /// that it had `before` on this axis, or the local mean.
+    fn place(&mut self, texture: usize, at: SpacePoint, before: Option<f64>) -> Option<f64> {
+        let value = self.values.get_mut(texture)?;
+        if value.is_some() {
+            return None;
+        }
+        let estimate = before.or_else(|| Some(self.mean.as_ref()?.at(at))).unwrap_or(MIDDLE);
+        *value = Some(estimate);
+        Some(estimate)
+    }
+
+    /// Coordinate of a point of the axes before; `there` are the textures at its position, the first one that counts first.
+    fn coordinate(&self, at: SpacePoint, there: &[usize]) -> f64 {
+        let kept = || at.get(self.kept?);
+        let of_texture = || there.iter().find_map(|texture| *self.values.get(*texture)?);
+        let mean = || Some(self.mean.as_ref()?.at(at));
+        kept().or_else(of_texture).or_else(mean).unwrap_or(MIDDLE)
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{AxesChange, fit_points};
-    use crate::state::edit::{Edit, PathChange, edited};
-    use crate::state::history::{Gesture, History};
-    use shagreen_core::space::SpacePoint;
-    use shagreen_core::space::texture_path::UserPath;
-    use shagreen_formats::built_in::BuiltIn;
-    use shagreen_formats::library::Library;
-    use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
-    use shagreen_formats::starter::starter_library;
-    use shagreen_studio::axes::{moved_to_axes, placed_on};
-    use std::sync::Arc;
-
-    fn names(axes: &[&str]) -> Vec<String> {
-        axes.iter().map(|name| (*name).to_owned()).collect()
-    }
-
-    /// Project with a texture, its snapshot at another point, and a path.
-    fn project() -> (Project, Library) {
-        let start = Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "Oak copy");
-        let at = SpacePoint::plane(20.0, 30.0);
-        let path = UserPath { points: vec![at, SpacePoint::plane(60.0, 70.0)], ..UserPath::default() };
-        let edits = [
-            Edit::KeepSnapshot,
-            Edit::MovePoint(at),
-            Edit::ChangePath(PathChange::Draw, Some(path)),
-            Edit::Author(Box::new(AuthoredTexture::new(0, "Felt"))),
-        ];
-        let project = edits.into_iter().fold(start, |project, edit| edited(&project, edit));
-        (project, starter_library().unwrap())
-    }
-
-    fn change(project: &Project, library: &Library, axes: &[&str]) -> Edit {
-        let own = names(&library.axis_names());
-        let positions = placed_on(library, project.axes.as_ref().unwrap_or(&own)).unwrap().positions();
-        Edit::SetAxes(Box::new(AxesChange::new(project, library, &positions, &names(axes))))
-    }
-
-    fn changed(project: &Project, library: &Library, axes: &[&str]) -> Project {
-        edited(project, change(project, library, axes))
-    }
-
-    #[test]
-    fn swapped_axes_keep_every_point() {
-        let (project, library) = project();
-        let swapped = changed(&project, &library, &["hard-soft", "rough-smooth"]);
-        assert_eq!(swapped.axes, Some(names(&["hard-soft", "rough-smooth"])));
-        for (before, after) in
-            [(&project.authored, &swapped.authored), (&project.snapshots, &swapped.snapshots)]
-        {
-            for (before, after) in before.iter().zip(after) {
-                assert_eq!(after.at, SpacePoint::plane(before.at.y(), before.at.x()));
-            }
-        }
-        let points = &swapped.authored[0].path.as_ref().unwrap().points;
-        assert_eq!(points[1], SpacePoint::plane(70.0, 60.0));
-        // Back again, nothing has changed: the axes are those of the positions.
-        assert_eq!(changed(&swapped, &library, &["rough-smooth", "hard-soft"]), project);
-    }
-
-    #[test]
-    fn a_further_axis_is_at_its_local_mean_and_undo_restores_everything() {
-        let (project, library) = project();
-        let mut now = project.clone();
-        let mut history = History::default();
-        let edit = change(&now, &library, &["rough-smooth", "hard-soft", "centroid"]);
-        history.apply(&mut now, edit, Gesture(1));
-        for texture in now.authored.iter().chain(&now.snapshots) {
-            assert_eq!(texture.at.n_axes(), 3);
-            assert!(texture.at.get(2).is_some_and(|mean| (0.0..=100.0).contains(&mean)), "{}", texture.at);
-        }
-        let path = now.authored[0].path.as_ref().unwrap();
-        assert_eq!((path.points[0], path.points[1].n_axes()), (now.authored[0].at, 3), "the same point");
-        let further = now.clone();
-        assert!(history.undo(&mut now) && now == project);
-        assert!(history.redo(&mut now) && now == further);
-        assert_eq!(changed(&further, &library, &["rough-smooth", "hard-soft"]), project);
-    }
-
-    /// Many points at once move as each alone.
-    #[test]
-    fn points_move_as_the_command_line_moves_them() {
-        let (project, library) = project();
-        let further = ["hard-soft", "centroid", "speed exponent", "rough-smooth"];
-        let other = ["speed exponent", "force exponent", "hard-soft"];
-        let (now, plane) = (changed(&project, &library, &further), names(&library.axis_names()));
-        let then = changed(&now, &library, &other);
-        for (index, texture) in project.authored.iter().enumerate() {
-            let moved = moved_to_axes(&library, texture.at, &plane, &names(&further));
-            assert_eq!(now.authored[index].at, moved);
-            let moved = moved_to_axes(&library, moved, &names(&further), &names(&other));
-            assert_eq!(then.authored[index].at, moved);
-        }
-    }
-
-    #[test]
-    fn another_library_fits_the_points_to_its_axes() {
-        let (mut project, library) = project();
-        let before = project.clone();
-        fit_points(&mut project);
-        assert!(project == before && Arc::ptr_eq(&project.authored[0], &before.authored[0]));
-        let further = changed(&project, &library, &["rough-smooth", "hard-soft", "centroid"]);
-        let built_in = ProjectLibrary::BuiltIn(BuiltIn::Simulated);
-        let opened = edited(&further, Edit::OpenLibrary(built_in));
-        assert_eq!(opened.axes, None);
-        assert!(opened.authored.iter().all(|texture| texture.at.n_axes() == 2));
-        assert_eq!(opened.authored[0].at, before.authored[0].at);
-    }
-}
+mod tests;

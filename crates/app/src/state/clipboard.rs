@@ -6,8 +6,10 @@ use std::sync::Arc;
 use shagreen_core::space::SpacePoint;
 use shagreen_formats::library::{Library, Place, TextureEntry, free_name};
 use shagreen_formats::project::clipboard::CopiedTexture;
-use shagreen_formats::project::{AuthoredTexture, BlendChoice, Project};
+use shagreen_formats::project::{AuthoredTexture, BlendChoice, Project, plain_axis_name};
+use shagreen_studio::axes::axis_poles;
 
+use crate::state::moved_points::move_to_axes;
 use crate::strings::clipboard as strings;
 
 /// Offset of a copy from its original along each axis, in axis units (0 to 100).
@@ -23,12 +25,12 @@ pub fn beside(at: SpacePoint) -> SpacePoint {
 }
 
 /// An authored texture of a project with the names of what it refers to, and the pinned textures that were added to the
-/// project. `library` is the list of the project, and `axes` are the words at the ends of its axes.
+/// project. `library` is the list of the project, and `axes` are the names of its axes.
 pub fn copied(
     texture: &AuthoredTexture,
     project: &Project,
     library: &Library,
-    axes: &[[String; 2]],
+    axes: &[String],
 ) -> CopiedTexture {
     let named = |id: &String| {
         let index = library.index_of(id)?;
@@ -43,7 +45,8 @@ pub fn copied(
     CopiedTexture {
         texture: texture.clone(),
         library: library.name.clone(),
-        axes: axes.to_vec(),
+        axes: axes.iter().map(|name| axis_poles(name)).collect(),
+        axis_names: axes.to_vec(),
         textures: project.joined.iter().filter_map(travels).collect(),
         pinned,
     }
@@ -60,31 +63,27 @@ pub struct Pasted {
     pub warnings: Vec<String>,
 }
 
-/// Fits a copied texture into a project with this library and these axes: its name becomes unique, it does not cover
+/// Fits a copied texture into a project with this library and axes of these names: its name becomes unique, it does not cover
 /// another authored texture, and pins of textures that neither the library nor the copy has are removed. Between spaces with other
-/// axes, at least one of them with more or fewer than two, its points keep the coordinates on axes of the same words, and
-/// `complete` gives them the others.
+/// axes, its points keep the coordinates on common axes and have the local mean of the textures, which have these `positions` by
+/// index, on the others. Between two axes and two others, they keep their coordinates, unless only the order differs.
 pub fn pasted(
     copied: CopiedTexture,
     project: &Project,
     library: &Library,
-    axes: &[[String; 2]],
-    complete: impl Fn(&[Option<f64>]) -> SpacePoint,
+    axes: &[String],
+    positions: &[Option<SpacePoint>],
 ) -> Pasted {
     let mut warnings = Vec::new();
-    if copied.library != library.name || copied.axes != *axes {
+    let from = common_axes(&copied, axes);
+    let has_same_axes = copied.axes.len() == axes.len() && from.iter().copied().eq((0..axes.len()).map(Some));
+    if copied.library != library.name || !has_same_axes {
         warnings.push(strings::from_another_space(&copied.library, &copied.axes));
     }
     let CopiedTexture { mut texture, pinned, textures, axes: before, .. } = copied;
-    if before != *axes && (before.len(), axes.len()) != (2, 2) {
-        let told = |at: SpacePoint| -> Vec<Option<f64>> {
-            let coordinate = |ends: &[String; 2]| at.get(before.iter().position(|known| known == ends)?);
-            axes.iter().map(coordinate).collect()
-        };
-        texture.at = complete(&told(texture.at));
-        for point in texture.path.iter_mut().flat_map(|path| &mut path.points) {
-            *point = complete(&told(*point));
-        }
+    let is_plane_to_plane = (before.len(), axes.len()) == (2, 2);
+    if !has_same_axes && (!is_plane_to_plane || from.iter().all(Option::is_some)) {
+        move_to_axes(&mut texture, &from, positions);
     }
     let is_lacking = |entry: &TextureEntry| !is_listed(entry, library);
     let own: Vec<TextureEntry> = textures.into_iter().filter(is_lacking).collect();
@@ -109,6 +108,20 @@ pub fn pasted(
     Pasted { texture: AuthoredTexture { name, at, blend, ..texture }, own, warnings }
 }
 
+/// For each axis of a project, the index of the same axis of the copied texture. Without names, it is the one with the same words,
+/// unless the project names the axis as an attribute, which a copy without names does not.
+fn common_axes(copied: &CopiedTexture, axes: &[String]) -> Vec<Option<usize>> {
+    let same = |name: &String| {
+        if !copied.axis_names.is_empty() {
+            return copied.axis_names.iter().position(|known| known == name);
+        }
+        let ends = axis_poles(name);
+        let by_words = copied.axes.iter().position(|known| *known == ends);
+        by_words.filter(|_| plain_axis_name(name) == name)
+    };
+    axes.iter().map(same).collect()
+}
+
 /// Whether the library has this very texture: an identifier alone may be that of another one.
 fn is_listed(entry: &TextureEntry, library: &Library) -> bool {
     let listed = library.index_of(&entry.id).and_then(|index| library.textures.get(index));
@@ -129,113 +142,4 @@ fn names_of(ids: BTreeSet<String>, names: &BTreeMap<String, String>) -> Vec<Stri
 }
 
 #[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-
-    use super::{beside, copied, pasted};
-    use crate::state::edit::{Edit, edited};
-    use shagreen_core::space::SpacePoint;
-    use shagreen_formats::built_in::BuiltIn;
-    use shagreen_formats::library::Library;
-    use shagreen_formats::project::{AuthoredTexture, Project, ProjectLibrary};
-
-    fn axes() -> [[String; 2]; 2] {
-        [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned))
-    }
-
-    /// The same axes stay, so that nothing is completed.
-    fn whole(told: &[Option<f64>]) -> SpacePoint {
-        panic!("{told:?}")
-    }
-
-    fn starter() -> (Project, Library) {
-        let library = BuiltIn::Starter.read().unwrap();
-        (Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "Felt"), library)
-    }
-
-    fn pinned(id: &str) -> AuthoredTexture {
-        let mut texture = AuthoredTexture::new(1, "Felt");
-        texture.blend.locked.insert(id.to_owned());
-        texture
-    }
-
-    #[test]
-    fn a_texture_of_the_same_project_is_pasted_beside_under_a_name_of_its_own() {
-        let (mut project, library) = starter();
-        for (n, name) in [(1.0, "Felt 2"), (2.0, "Felt 3")] {
-            let copy = copied(&pinned("cork"), &project, &library, &axes());
-            let outcome = pasted(copy, &project, &library, &axes(), whole);
-            assert_eq!((outcome.warnings, outcome.own), (Vec::new(), Vec::new()));
-            let at = 50.0 + 4.0 * n;
-            assert_eq!(outcome.texture.at, SpacePoint::plane(at, at));
-            assert_eq!(outcome.texture.name, name);
-            assert!(outcome.texture.blend.locked.contains("cork"));
-            project = edited(&project, Edit::Author(Box::new(outcome.texture)));
-        }
-        let corner = SpacePoint::plane(100.0, 98.0);
-        assert_eq!(beside(corner), SpacePoint::plane(96.0, 94.0));
-    }
-
-    #[test]
-    fn what_another_library_lacks_is_named() {
-        let (project, library) = starter();
-        let mut source = library.clone();
-        "Woods".clone_into(&mut source.name);
-        let cork = source.index_of("cork").unwrap();
-        "elm".clone_into(&mut source.textures[cork].id);
-        "Elm".clone_into(&mut source.textures[cork].name);
-        let mut texture = pinned("elm");
-        texture.blend.locked.insert("glass".to_owned());
-        let copy = copied(&texture, &project, &source, &axes());
-        let outcome = pasted(copy, &project, &library, &axes(), whole);
-        assert_eq!(outcome.texture.blend.locked.iter().collect::<Vec<_>>(), ["glass"]);
-        let [space, pins] = &outcome.warnings[..] else { panic!("{:?}", outcome.warnings) };
-        assert!(space.contains("library Woods, axes rough to smooth and hard to soft"), "{space}");
-        assert!(pins.ends_with("lacks them: Elm"), "{pins}");
-    }
-
-    /// A texture of one project, such as a generated one, goes with the authored texture that pins it, unless it is there.
-    #[test]
-    fn a_pinned_texture_that_was_added_travels_with_the_copy() {
-        let (project, library) = starter();
-        let mut own = library.textures[0].clone();
-        "ribs".clone_into(&mut own.id);
-        (own.place, own.picture) = (None, None);
-        let join = Edit::JoinSimulated { key: 1, entry: Arc::new(own.clone()), earlier: None };
-        let source = edited(&project, join);
-        let list = source.textures_on(library.clone());
-        let copy = copied(source.texture(), &source, &list, &axes());
-        assert_eq!(copy.textures, [own.clone()]);
-        // A texture of the same identifier is another one.
-        let mut other = own.clone();
-        other.picture = library.textures[1].picture.clone();
-        let target = edited(&project, Edit::AddTextures(vec![Arc::new(other)]));
-        let outcome = pasted(copy.clone(), &target, &target.textures_on(library.clone()), &axes(), whole);
-        assert_eq!(outcome.warnings, Vec::<String>::new());
-        let after =
-            edited(&target, Edit::AuthorWith { texture: Box::new(outcome.texture), own: outcome.own });
-        assert_eq!(after.joined[1].id, "ribs-2");
-        assert!(after.own.contains("ribs-2") && !after.own.contains("ribs"));
-        assert_eq!(after.texture().blend.locked.iter().collect::<Vec<_>>(), ["ribs-2"]);
-        // In its own project there is nothing to add.
-        assert_eq!(pasted(copy, &source, &list, &axes(), whole).own, Vec::new());
-    }
-    #[test]
-    fn a_texture_goes_to_a_space_with_other_axes() {
-        let (project, library) = starter();
-        let mut texture = AuthoredTexture::new(1, "Felt");
-        texture.at = SpacePoint::plane(20.0, 30.0);
-        let copy = copied(&texture, &project, &library, &axes());
-        let further = [["hard", "soft"], ["dull", "bright"], ["rough", "smooth"]];
-        let further = further.map(|ends| ends.map(str::to_owned));
-        let complete = |told: &[Option<f64>]| {
-            assert_eq!(told, [Some(30.0), None, Some(20.0)]);
-            SpacePoint::of(&[30.0, 44.0, 20.0]).unwrap()
-        };
-        let outcome = pasted(copy, &project, &library, &further, complete);
-        assert_eq!(outcome.texture.at.coordinates(), [30.0, 44.0, 20.0]);
-        assert_eq!(outcome.warnings.len(), 1, "{:?}", outcome.warnings);
-        let corner = SpacePoint::of(&[100.0, 10.0, 55.0]).unwrap();
-        assert_eq!(beside(corner).coordinates(), [96.0, 14.0, 55.0]);
-    }
-}
+mod tests;

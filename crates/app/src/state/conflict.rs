@@ -52,7 +52,10 @@ pub(crate) fn differences(base: Option<&Project>, here: &Project, there: &Projec
     let mut all: Vec<Difference> = keys.into_iter().filter_map(texture).collect();
     let mut add =
         |part: Part, change: Option<Change>| all.extend(change.map(|change| Difference { part, change }));
-    add(Part::Library, compared(base, here, there, |p| (&p.library, &p.joined, &p.own, &p.renamed)));
+    add(
+        Part::Library,
+        compared(base, here, there, |p| (&p.library, &p.joined, &p.own, &p.coordinates, &p.renamed)),
+    );
     add(Part::Space, compared(base, here, there, |p| (&p.space, &p.axes)));
     add(Part::Notes, compared(base, here, there, |p| &p.notes));
     add(Part::Snapshots, compared(base, here, there, |p| &p.snapshots));

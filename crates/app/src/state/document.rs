@@ -279,7 +279,11 @@ fn conflict(path: &Path, base: Option<&Project>, here: &Project, present: &[u8])
         if is_permitted { bounded_file::read(library, FileKind::Document) } else { Err(unreadable()) }
     };
     let read = |bytes: &[u8]| match read_project(bytes, &folder, &library) {
-        Ok(read) => Some(read.value),
+        Ok(mut read) => {
+            // As an opened project.
+            read.value.fit_points();
+            Some(read.value)
+        }
         // An empty library differs from the open one, as the one that was not read does.
         Err(ProjectError::LibraryFile { .. } | ProjectError::Network { .. }) => {
             let empty = ProjectLibrary::Inside(Library::default().into());
@@ -301,6 +305,10 @@ fn unreadable() -> std::io::Error {
 #[cfg(all(test, target_os = "linux", target_arch = "x86_64"))]
 #[path = "document/tests/faults.rs"]
 mod faults;
+
+#[cfg(test)]
+#[path = "document/tests/other_axes.rs"]
+mod other_axes;
 
 #[cfg(test)]
 #[path = "document/tests/other_library.rs"]

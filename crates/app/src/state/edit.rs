@@ -21,13 +21,16 @@ use shagreen_formats::text_limits::{MAX_NAME, MAX_NOTES, begin_of};
 
 pub use self::path_change::PathChange;
 
-use self::changes::{author, author_with, change, open, remove, restore, set_own};
-use crate::state::axes_change::{AxesChange, fit_points};
+use self::changes::{
+    add_relief, add_textures, author, author_with, change, change_points, join_simulated, open,
+    place_texture, remove, remove_texture, restore, set_axes, set_own, use_space,
+};
+use crate::state::axes_change::AxesChange;
 use crate::strings::edits as strings;
-use shagreen_studio::felt::join_felt;
-use shagreen_studio::height_map::{ReliefPlace, join_relief};
+use shagreen_studio::height_map::ReliefPlace;
 
-/// Edit of a project. Unless stated otherwise, it applies to the selected authored texture.
+/// Edit of a project. Unless stated otherwise, it applies to the selected authored texture. After an edit that moves points of a
+/// texture, all of its points have one coordinate for each axis of the space.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Edit {
     /// Moves the point to a position in the space and ends solo.
@@ -111,21 +114,22 @@ pub enum Edit {
     /// Keeps a snapshot of the texture.
     KeepSnapshot,
     /// Selects the texture of the snapshot with this index and restores its state, except name, color, notes and tags. A
-    /// texture that was deleted comes back with all of these. Ends solo.
+    /// texture that was deleted comes back with all of these. The points of a snapshot that was taken on other axes keep their
+    /// coordinates on axes of the same name, and have the local mean of the textures on the others. Ends solo.
     RestoreSnapshot(usize),
     /// Deletes the snapshot with this index.
     RemoveSnapshot(usize),
     /// Sets the notes of the project.
     SetProjectNotes(String),
-    /// Opens another library. The points keep their coordinates on as many axes as it has, and their pins of textures that
-    /// belong to them. The space in use, axes, other pins, names and stars of textures, and solo belong to the previous
-    /// library and are reset.
+    /// Opens another library. The points keep their coordinates on axes of the same name ([`Project::follow_axes`]), and their
+    /// pins of textures that belong to them. Chosen axes stay if the textures of the library can be placed on them. The space
+    /// in use, other axes, other pins, names and stars of textures, and solo belong to the previous library and are reset.
     OpenLibrary(ProjectLibrary),
     /// Embeds the library in the project.
     KeepLibraryInside(ProjectLibrary),
     /// Adds textures to the list.
     AddTextures(Vec<Arc<TextureEntry>>),
-    /// Adds the texture that was simulated for the authored texture with this key ([`join_felt`]).
+    /// Adds the texture that was simulated for the authored texture with this key ([`shagreen_studio::felt::join_felt`]).
     JoinSimulated {
         /// Key of the authored texture.
         key: u32,
@@ -134,7 +138,7 @@ pub enum Edit {
         /// Texture that was simulated for it before, to be replaced.
         earlier: Option<Arc<TextureEntry>>,
     },
-    /// Adds a texture with a relief from a picture ([`join_relief`]).
+    /// Adds a texture with a relief from a picture ([`shagreen_studio::height_map::join_relief`]).
     AddRelief {
         /// Texture with the relief.
         entry: Arc<TextureEntry>,
@@ -179,9 +183,10 @@ pub enum Edit {
     },
     /// Solos the texture with this id until the point moves, or ends solo.
     Solo(Option<String>),
-    /// Takes positions and attributes of the textures from a built space, and resets the axes.
+    /// Takes positions and attributes of the textures from a built space. Chosen axes stay if the textures can be placed on them;
+    /// otherwise, they are reset. The points keep their coordinates on axes of the same name ([`Project::follow_axes`]).
     UseSpace(Arc<PlacedSpace>),
-    /// Sets the axes of the space, and moves all authored textures, snapshots and paths to them.
+    /// Sets the axes of the space, and moves all authored textures and paths to them. Snapshots stay on theirs.
     SetAxes(Box<AxesChange>),
     /// Sets the keys of the authored textures on the sides A and B of a comparison.
     SetCompared([u32; 2]),
@@ -287,7 +292,7 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
     match edit {
         Edit::MovePoint(point) => {
             project.solo = None;
-            change(&mut project, |texture| texture.at = point);
+            change_points(&mut project, |texture| texture.at = point);
         }
         Edit::TakeTexture { id, at, .. } => {
             project.solo = None;
@@ -324,11 +329,11 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         Edit::SetPicture(picture) => change(&mut project, |texture| texture.picture = picture),
         Edit::Remake { at, picture, notes } | Edit::TakeMaterial { at, picture, notes, .. } => {
             project.solo = None;
-            change(&mut project, |texture| {
+            change_points(&mut project, |texture| {
                 (texture.at, texture.picture, texture.notes) = (at, Some(picture), notes);
             });
         }
-        Edit::ChangePath(_, path) => change(&mut project, |texture| texture.path = path),
+        Edit::ChangePath(_, path) => change_points(&mut project, |texture| texture.path = path),
         Edit::Author(texture) => author(&mut project, *texture),
         Edit::AuthorWith { texture, own } => author_with(&mut project, *texture, own),
         Edit::Remove(key) => remove(&mut project, key),
@@ -347,21 +352,13 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
         Edit::SetProjectNotes(notes) => project.notes = begin_of(notes, MAX_NOTES),
         Edit::OpenLibrary(library) => open(&mut project, library),
         Edit::KeepLibraryInside(library) => project.library = library,
-        Edit::AddTextures(entries) => project.add_textures(entries),
-        Edit::JoinSimulated { key, entry, earlier } => join_felt(&mut project, key, entry, earlier.as_ref()),
-        Edit::AddRelief { entry, place } => join_relief(&mut project, entry, place),
-        Edit::PlaceTexture { joined, entry, .. } => {
-            if let Some(before) = project.joined.get_mut(joined) {
-                *before = entry;
-            }
+        Edit::AddTextures(entries) => add_textures(&mut project, entries),
+        Edit::JoinSimulated { key, entry, earlier } => {
+            join_simulated(&mut project, key, entry, earlier.as_ref());
         }
-        Edit::RemoveTexture(index) => {
-            if index < project.joined.len() {
-                let removed = project.joined.remove(index);
-                project.own.remove(&removed.id);
-                project.solo = None;
-            }
-        }
+        Edit::AddRelief { entry, place } => add_relief(&mut project, entry, place),
+        Edit::PlaceTexture { joined, entry, .. } => place_texture(&mut project, joined, entry),
+        Edit::RemoveTexture(index) => remove_texture(&mut project, index),
         Edit::SetOwn { joined, is_own, .. } => set_own(&mut project, joined, is_own),
         Edit::RenameTexture { id, name } => drop(project.renamed.insert(id, begin_of(name, MAX_NAME))),
         Edit::Star { id, is_starred, .. } => {
@@ -372,11 +369,8 @@ pub fn edited(project: &Project, edit: Edit) -> Project {
             }
         }
         Edit::Solo(id) => project.solo = id,
-        Edit::UseSpace(space) => {
-            (project.space, project.axes) = (Some(space), None);
-            fit_points(&mut project);
-        }
-        Edit::SetAxes(change) => change.apply(&mut project),
+        Edit::UseSpace(space) => use_space(&mut project, space),
+        Edit::SetAxes(change) => set_axes(&mut project, *change),
         Edit::SetCompared(keys) => project.compared = Some(keys),
     }
     project

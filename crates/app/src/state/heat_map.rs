@@ -138,8 +138,7 @@ fn begin(wanted: Wanted, authoring: Authoring, planes: Vec<Arc<Plane>>, ctx: Con
     std::thread::spawn(move || {
         let planes: Vec<&Plane> = planes.iter().map(|plane| &**plane).collect();
         let mapper = HeatMapper::new(&authoring, &planes, &wanted.blending, wanted.contact, wanted.quantity);
-        // The distance from the textures is defined everywhere. The outline of a slice is not known: there, values end
-        // with the cells.
+        // The distance from the textures is defined everywhere, and so is every quantity in a slice, whose outline is not known.
         let is_plane = authoring.space().n_axes() == 2;
         let has_outline = is_plane && wanted.quantity != Quantity::Distance;
         let outline: Option<Arc<[SpacePoint]>> =

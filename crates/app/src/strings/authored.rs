@@ -1,5 +1,7 @@
 //! Authored textures: list, details, and snapshots.
 
+use crate::strings::axes::local_means;
+
 pub const HEADING: &str = "Authored";
 pub const HELP: &str = "Authored textures of this project: each is a point of the space with an interpolation mode. Click one to edit it.";
 pub const ADD: &str = "Add";
@@ -85,6 +87,17 @@ pub fn snapshot(number: usize, name: &str) -> String {
 /// Notice that a snapshot is restored; numbers start at 1, and `keys` are those of undo.
 pub fn restored(number: usize, name: &str, keys: &str) -> String {
     format!("Snapshot {number} of {name} restored. Undo: {keys}")
+}
+
+/// Notice that a snapshot that was taken on other axes is restored, with local means on these `axes`; numbers start at 1, and
+/// `keys` are those of undo.
+pub fn restored_on(axes: &[String], number: usize, name: &str, keys: &str) -> String {
+    format!("Snapshot {number} of {name} restored. {} Undo: {keys}", local_means(axes))
+}
+
+/// Notice that a snapshot that was taken on other axes is added as a texture with this name, with local means on these `axes`.
+pub fn added_on(axes: &[String], name: &str, keys: &str) -> String {
+    format!("{name} added. {} Undo: {keys}", local_means(axes))
 }
 
 /// Notice that an authored texture is deleted; `keys` are those of undo.

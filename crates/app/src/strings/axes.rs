@@ -3,29 +3,35 @@
 use shagreen_core::space::MOST_AXES;
 use shagreen_core::space::signal_axes::SignalAxis;
 use shagreen_core::words::counted;
+use shagreen_formats::placed_space::is_dimension_name;
 use shagreen_formats::project::plain_axis_name;
 use shagreen_studio::axes::AxisSource;
 
-pub const TITLE: &str = "Axes of the space";
-pub const COMMAND: &str = "Choose the axes of the space";
+use crate::strings::axis_help;
+
+pub const TITLE: &str = "Axes";
 pub const SWAP: &str = "Swap the axes of the canvas";
-pub const BUTTON: &str = "Choose axes";
+pub const BUTTON: &str = "Axes…";
 pub const BUTTON_HELP: &str = "Chooses one to six axes of the space: attributes of the textures, or features of their vibration. The canvas shows the first two; the others are sliders.";
 pub const NOTHING_TO_SWAP: &str =
     "The space has one axis, so there is nothing to swap. Choose two axes or more.";
-pub const PURPOSE: &str = "The canvas shows the first two axes; the others are sliders in the inspector. Points keep their coordinates on axes that stay. On a new axis, they lie at the local mean of the textures.";
+pub const PURPOSE: &str = "The canvas shows the first two axes; the others are sliders. Points keep their coordinates on axes that stay. On a new axis, points on a texture follow it; others lie at the local mean.";
 pub const PRESETS: &str = "Presets";
 pub const AS_PLACED: &str = "As placed";
 pub const AS_PLACED_HELP: &str = "The axes on which the library states the positions of the textures.";
 pub const LOADING: &str = "Reading the axes of the textures…";
 pub const BROKEN: &str = "Reading the axes stopped unexpectedly; open this sheet again.";
 pub const NEEDS_ONE: &str = "A space needs at least one axis.";
+pub const SAME_NAME: &str = "An axis of the same name is chosen. Remove it first.";
 pub const SWAP_FIRST: &str = "Swap the first two";
 pub const SWAP_FIRST_HELP: &str =
     "Swaps the axes of the canvas: the horizontal one becomes the vertical one.";
 pub const USE: &str = "Use these axes";
 pub const USE_HELP: &str = "Places the textures on these axes and moves all points to them. Undo restores the former axes and points.";
 pub const CANCEL: &str = "Cancel";
+pub const CHOOSE: &str = "Choose other axes…";
+pub const NONE_HAS_ALL: &str =
+    "No texture has a value on each of the chosen axes. Choose fewer or other axes.";
 pub const NO_TEXTURE: &str = "No texture has a value on each of these axes. Remove an axis.";
 
 pub const EVALUATE: &str = "Evaluate axes";
@@ -33,7 +39,7 @@ pub const EVALUATE_HELP: &str = "Predicts each texture from the others (leave-on
 pub const EVALUATING: &str = "Evaluating";
 pub const STOP: &str = "Stop";
 pub const EVALUATION_BROKEN: &str = "The evaluation stopped unexpectedly; start it again.";
-pub const ADDED: &str = "axis";
+pub const ADDED: &str = "axes";
 pub const ERROR: &str = "error in dB";
 pub const ERROR_HELP: &str = "Mean spectral distance between each texture and its prediction from the others: with the last number of axes that helped, and with this axis.";
 pub const RANK1: &str = "rank 1";
@@ -44,15 +50,60 @@ pub const GAIN_HELP: &str = "Decrease of the error, ± its standard error, compa
 pub const HELPS: &str = "helps";
 pub const NO_HELP: &str = "no clear gain";
 pub const ADD: &str = "Add";
+pub const ADD_HELP: &str =
+    "Adds this axis and those of the rows above it: each row has one axis more than the row before.";
 
 pub const FURTHER_HELP: &str =
     "Axes that the canvas does not show. It shows a slice of the space at these coordinates.";
 pub const SLICE_HELP: &str = "Textures far from the slice on the further axes are small and faint, relative to the spread of all textures. Triangles and the convex hull exist only with two axes.";
 pub const NEEDS_TRIANGLES: &str = "This mode interpolates in triangles, which exist only in a space with one or two axes. Field is used until then; the chosen mode comes back with two axes.";
 
+/// Says that the mode with this name is not used in a space without triangles.
+pub fn waits(mode: &str) -> String {
+    format!("{mode} needs one or two axes; Field is used.")
+}
+
 /// Name of an axis, as it is shown.
 pub fn name(axis: &str) -> &str {
     plain_axis_name(axis)
+}
+
+/// Says that no texture has a value on these axes.
+pub fn missing(axes: &[&str]) -> String {
+    let names: Vec<&str> = axes.iter().map(|axis| name(axis)).collect();
+    let of = if names.len() == 1 { "the axis" } else { "any of the axes" };
+    format!(
+        "No texture has a value on {of} {}. Choose other axes, or open another library.",
+        names.join(", ")
+    )
+}
+
+/// Says on which axes a library file states its positions, if the project has chosen others.
+pub fn stored(own: &[&str]) -> String {
+    format!("Its positions are on the axes {}; only the project stores the chosen axes.", own.join(", "))
+}
+
+/// Help for an axis with this name and these words at its ends.
+pub fn help(axis: &str, ends: &[String; 2]) -> String {
+    let name = name(axis);
+    if is_dimension_name(name) {
+        return format!(
+            "Coordinate on {name} of the perceptual space: 0 is the lowest of all textures, 100 the highest. The direction has no meaning."
+        );
+    }
+    axis_help(ends)
+}
+
+/// Words at both ends of an axis, unless its name says them, or they say its name.
+pub fn ends(axis: &str, [low, high]: &[String; 2]) -> Option<String> {
+    let name = name(axis);
+    let is_said = |end: &String| name.contains(end.as_str()) || end.contains(name);
+    (!is_said(low) || !is_said(high)).then(|| format!("{low} to {high}"))
+}
+
+/// Lowest and highest coordinate of the textures on an axis.
+pub fn range([low, high]: [f64; 2]) -> String {
+    format!("Textures: {low:.0} to {high:.0}.")
 }
 
 /// Help for an axis that is computed from the vibration, with the values at its ends.
@@ -84,6 +135,20 @@ pub fn slice(n_axes: usize) -> String {
     format!("Slice through {n_axes} axes")
 }
 
+/// Says that the nearest point of the hull plays: the axis on which it differs most from the authored point, and its coordinates
+/// there, as whole numbers unless these are equal.
+pub fn nearest(axis: &str, used: f64, wanted: f64) -> String {
+    let shown = |value: f64| {
+        if used.round() == wanted.round() { format!("{value:.1}") } else { format!("{:.0}", value.round()) }
+    };
+    format!(
+        "Outside the convex hull of the textures: the nearest point plays, with {} {} instead of {}.",
+        name(axis),
+        shown(used),
+        shown(wanted)
+    )
+}
+
 /// Accessible name of the button that moves the point to the local mean on an axis.
 pub fn reset(axis: &str) -> String {
     format!("Reset {} to the local mean", name(axis))
@@ -97,10 +162,23 @@ pub fn reset_help(axis: &str) -> String {
     )
 }
 
-/// Notice that other axes were chosen; `keys` are those of undo.
-pub fn chosen(n: usize, keys: &str) -> String {
+/// Notice that other axes were chosen. Points have no coordinates on the `dropped` ones any more; `keys` are those of undo.
+pub fn chosen(n: usize, dropped: &[String], keys: &str) -> String {
+    if !dropped.is_empty() {
+        return coordinates_dropped(dropped, keys);
+    }
     let axes = if n == 1 { "1 axis".to_owned() } else { format!("{n} axes") };
     format!("The space has {axes} now. Undo: {keys}")
+}
+
+/// Notice that points have no coordinates on these axes any more; `keys` are those of undo.
+pub fn coordinates_dropped(axes: &[String], keys: &str) -> String {
+    format!("Coordinates on {} are dropped. Undo: {keys}", names(axes, ", "))
+}
+
+/// Says that these coordinates of a point are estimated from the textures.
+pub fn local_means(axes: &[String]) -> String {
+    format!("Coordinates on {} are local means.", names(axes, ", "))
 }
 
 /// Place of a chosen axis, by its index.
@@ -114,11 +192,11 @@ pub fn place(axis: usize) -> String {
 
 /// Accessible name of the buttons that move a chosen axis by one place.
 pub fn earlier(axis: &str) -> String {
-    format!("Move {} up", name(axis))
+    format!("Move {} to the place before", name(axis))
 }
 
 pub fn later(axis: &str) -> String {
-    format!("Move {} down", name(axis))
+    format!("Move {} to the next place", name(axis))
 }
 
 /// Source of an axis, and how many textures have a value.
@@ -140,6 +218,28 @@ pub fn n_placed(n_placed: usize, n: usize) -> String {
 /// Why no further axis can be chosen.
 pub fn most() -> String {
     format!("A space has at most {MOST_AXES} axes. Remove one first.")
+}
+
+/// Names of the axes with which an evaluation began, one a line.
+pub fn first_axes(axes: &[String]) -> String {
+    names(axes, ",\n")
+}
+
+/// Name of a row of an evaluation: the axis that it adds to those of the rows above.
+pub fn added(axis: &str) -> String {
+    format!("+ {}", name(axis))
+}
+
+/// Says that an evaluation began with other axes than the chosen ones.
+pub fn of_another_choice(first: &[String]) -> String {
+    format!(
+        "These errors are those of another choice, which began with {}. Evaluate the axes again to add some.",
+        names(first, ", ")
+    )
+}
+
+fn names(axes: &[String], between: &str) -> String {
+    axes.iter().map(|axis| name(axis)).collect::<Vec<_>>().join(between)
 }
 
 /// Accessible name of the button that adds an evaluated axis.
@@ -174,15 +274,14 @@ pub fn left_out(axes: &[&str]) -> String {
 
 /// An axis of which an estimate says nothing, with the local mean that takes its place.
 pub fn untold(axis: &str, mean: f64) -> String {
-    format!("{}: not told, local mean {mean:.0}", name(axis))
+    format!("{}: not described, local mean {mean:.0}", name(axis))
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{errors, gain, n_placed, place, source, untold};
-    use crate::strings::axis_help;
+    use super::{ends, errors, gain, help, n_placed, nearest, place, range, source, untold};
     use shagreen_core::space::signal_axes::SignalAxis;
-    use shagreen_studio::axes::AxisSource;
+    use shagreen_studio::axes::{AxisSource, axis_poles};
 
     #[test]
     fn figures_read_as_they_are_meant() {
@@ -192,15 +291,27 @@ mod tests {
         assert_eq!(source(Some(AxisSource::Attribute), 25, 25), "attribute");
         assert_eq!(source(None, 0, 25), "unknown, 0 of 25 textures");
         assert_eq!(n_placed(1, 1), "1 of 1 texture on these axes.");
-        assert_eq!(untold("sticky-slippery", 43.2), "sticky-slippery: not told, local mean 43");
+        assert!(nearest("centroid", 62.04, 33.9).ends_with("with centroid 62 instead of 34."));
+        assert!(nearest("attribute:a-b", 34.23, 34.41).ends_with("with a-b 34.2 instead of 34.4."));
+        assert_eq!(untold("sticky-slippery", 43.2), "sticky-slippery: not described, local mean 43");
+    }
+
+    #[test]
+    fn an_axis_has_the_words_at_its_ends_unless_its_name_says_them() {
+        let of = |axis: &str| ends(axis, &axis_poles(axis));
+        assert_eq!(of("centroid").as_deref(), Some("dull to bright"));
+        assert_eq!(["attribute:flat-bumpy", "warm", "dimension 2"].map(of), [None, None, None]);
+        assert_eq!(range([50.7, 81.2]), "Textures: 51 to 81.");
     }
 
     #[test]
     fn a_computed_axis_states_the_values_at_its_ends() {
-        let help = |axis: SignalAxis| axis_help(&axis.poles().map(str::to_owned));
-        assert!(help(SignalAxis::Centroid).contains("0 is 30 Hz, 100 is 400 Hz"));
-        assert!(help(SignalAxis::ForceExponent).contains("100 is 1.5"));
-        let rated = axis_help(&["warm", "cold"].map(str::to_owned));
+        let of = |axis: &str| help(axis, &axis_poles(axis));
+        assert!(of(SignalAxis::Centroid.name()).contains("0 is 30 Hz, 100 is 400 Hz"));
+        assert!(of(SignalAxis::ForceExponent.name()).contains("100 is 1.5"));
+        let dimensions = ["dimension 1", "attribute:dimension 2"].map(of);
+        assert!(dimensions[0].contains("on dimension 1 of") && dimensions[1].contains("on dimension 2 of"));
+        let rated = of("warm-cold");
         assert_eq!(rated, "0 is the most warm texture of the space, 100 the most cold.");
     }
 }

@@ -1,10 +1,13 @@
 //! Heat map behind the canvas.
 
+use shagreen_core::space::authoring::Outside;
 use shagreen_core::space::heat_map::Quantity;
 
 pub const MAP: &str = "Map behind the space";
 pub const WAITING: &str = "computing…";
 pub const NO_VALUES: &str = "no values here";
+pub const NO_VALUES_HELP: &str = "The textures are silent at this speed and force, or too few for this map.";
+pub const OUTSIDE_HELP: &str = " Outside the hull, the map shows the texture that plays there: the one at the nearest point of the hull, or the extrapolated one.";
 
 /// Name of a map; `None` is no map.
 pub fn name(quantity: Option<Quantity>) -> &'static str {
@@ -33,6 +36,14 @@ pub fn help(quantity: Option<Quantity>) -> &'static str {
         Some(Quantity::Distance) => {
             "Distance in the space to the nearest texture, in axis points (each axis has 100). Far from all textures, the interpolated texture is uncertain"
         }
+    }
+}
+
+/// Which values a map has outside the convex hull in a space with more axes than the canvas.
+pub fn outside(outside: Outside) -> &'static str {
+    match outside {
+        Outside::Clamped => "Outside the hull: nearest point",
+        Outside::Extrapolated => "Outside the hull: extrapolated",
     }
 }
 

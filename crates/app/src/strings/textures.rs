@@ -41,9 +41,11 @@ pub const BACK_HELP: &str = "Plays the selected authored texture again (Escape).
 pub const AUTHOR: &str = "Add as authored texture";
 pub const AUTHOR_HELP: &str = "Adds an authored texture that is exactly this texture: at its position, in the mode Field and pinned. Dragging the row onto the space does the same.";
 pub const NO_POSITION: &str = "This texture has no position in the space. The menu of an added texture can estimate one; ratings give one in Build.";
+pub const LOST_PIN: &str = "pinned without effect: no position";
+pub const LOST_PIN_HELP: &str = "A pin has an effect only at the position of its texture, and this texture has none in the space. Estimate its position, or choose axes on which it has one.";
 pub const ESTIMATE_PLACE: &str = "Estimate position";
 pub const ESTIMATE_PLACE_HELP: &str = "Estimates the position from textures with similar vibration and a known position. The texture then contributes to the space. The estimate is not a human rating.";
-pub const CANNOT_PLACE: &str = "No position can be estimated: this needs five textures with positions, no built space or chosen attributes on the axes, and a sample rate of the texture that is not above that of the space.";
+pub const CANNOT_PLACE: &str = "No position can be estimated: this needs five textures with positions, no built space, no position on other axes than the chosen ones, and a sample rate of the texture that is not above that of the space.";
 pub const STAR: &str = "Star";
 pub const UNSTAR: &str = "Unstar";
 pub const STAR_HELP: &str = "Starred textures come first in the list. The project stores the stars.";
@@ -118,6 +120,11 @@ pub fn whole_space_effect(is_everywhere: bool, n_changed: Option<usize>) -> Stri
     let (state, switched) =
         if is_everywhere { ("in the whole space", "off") } else { ("only where it is pinned", "on") };
     format!("This texture contributes {state}. If you switch this {switched}: {change}.")
+}
+
+/// Names the textures that are pinned without effect.
+pub fn lost_pins(textures: &[&str]) -> String {
+    format!("Pinned without effect (no position in this space): {}", textures.join(", "))
 }
 
 /// Note on a texture that takes part only in these authored textures.

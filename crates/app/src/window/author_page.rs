@@ -11,7 +11,6 @@ use super::Window;
 use crate::author::canvas::{CanvasState, ShownMap, canvas_ui};
 use crate::author::inspector::inspector_ui;
 use crate::author::library_panel::{LibraryState, library_ui};
-use crate::author::prompt::axis_names;
 use crate::author::prompt::bar_ui::bar_ui;
 use crate::author::prompt::card_ui::{CardPlace, card_ui};
 use crate::command::Command;
@@ -66,8 +65,8 @@ impl Window {
         CentralPanel::default().frame(frame).show(ui, |ui| {
             commands.extend(bar_ui(ui, &mut self.prompts, &self.files.settings.prompts));
             // An estimate on other axes is shown again when undo brings these back.
-            let names = axis_names(self.session.poles());
-            let guess = self.prompts.guess_of(self.project.texture()).filter(|guess| guess.names == names);
+            let axes = self.session.axes();
+            let guess = self.prompts.guess_of(self.project.texture()).filter(|guess| guess.names == axes);
             let area = ui.available_rect_before_wrap();
             self.tour.places[0] = area;
             let AuthorPage { canvas, card, guess_picture, .. } = &mut self.pages.author;
@@ -93,11 +92,12 @@ impl Window {
         let session = &self.session;
         let contact = self.pages.stage.pad.contact(session);
         let texture = self.project.texture();
+        let slice = Panel::new(&self.project, session, &self.compare, &self.pictures).slice_point();
         let wanted = self.pages.author.map.map(|quantity| Wanted {
             quantity,
             blending: session.blending(&texture.blend),
             contact,
-            slice: session.fitted(texture.at).on_canvas_at(SpacePoint::default()),
+            slice: slice.on_canvas_at(SpacePoint::default()),
             generation: session.generation_of(texture),
         });
         self.pages.author.heat.follow(

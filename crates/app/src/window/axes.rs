@@ -46,8 +46,11 @@ impl Window {
             return;
         }
         let change = AxesChange::new(&self.project, self.session.library(), &self.session.positions(), axes);
+        let former = self.session.axes();
+        let dropped: Vec<String> = former.iter().filter(|name| !axes.contains(name)).cloned().collect();
         self.gesture.begin_another();
         self.carry_out(Command::Edit(Edit::SetAxes(Box::new(change))), ctx);
-        show_notice(ctx, strings::chosen(axes.len(), &Command::Undo.shortcut_text(ctx)));
+        let keys = Command::Undo.shortcut_text(ctx);
+        show_notice(ctx, strings::chosen(self.project.n_axes(), &dropped, &keys));
     }
 }

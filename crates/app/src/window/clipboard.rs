@@ -49,7 +49,7 @@ impl Window {
         let shown = self.compare.heard_key().filter(|_| !self.compare.is_hidden());
         let key = key.or(shown).unwrap_or(self.project.texture().key);
         let texture = self.project.authored.iter().find(|texture| texture.key == key)?;
-        let copied = copied(texture, &self.project, self.session.library(), self.session.poles());
+        let copied = copied(texture, &self.project, self.session.library(), self.session.axes());
         ctx.copy_text(write_copied_texture(&copied));
         Some((key, texture.name.clone()))
     }
@@ -64,8 +64,8 @@ impl Window {
             }
         };
         let session = &self.session;
-        let complete = |told: &[Option<f64>]| session.completed(told);
-        let pasted = pasted(copied, &self.project, session.library(), session.poles(), complete);
+        let positions = session.common_positions();
+        let pasted = pasted(copied, &self.project, session.library(), session.axes(), &positions);
         let is_used = |color: u8| self.project.authored.iter().any(|texture| texture.color == color);
         let color = if is_used(pasted.texture.color) {
             next_color(&Panel::new(&self.project, &self.session, &self.compare, &self.pictures))

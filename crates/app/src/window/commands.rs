@@ -32,7 +32,8 @@ use crate::sheets::palette::PaletteSheet;
 use crate::sheets::save::SaveSheet;
 use crate::state::compare::CompareCommand;
 use crate::state::edit::{Edit, name_of_snapshot};
-use crate::strings::{authored, document, stroke};
+use crate::state::lost_coordinates::{dropped_axes, unstated_axes};
+use crate::strings::{authored, axes, document, stroke};
 use crate::workspace::Workspace;
 
 impl Window {
@@ -141,7 +142,16 @@ impl Window {
                 removed.map(|texture| authored::deleted(&texture.name, &keys))
             }
             Edit::RestoreSnapshot(index) => {
-                Some(authored::restored(index + 1, name_of_snapshot(&self.project, *index), &keys))
+                let (number, name) = (index + 1, name_of_snapshot(&self.project, *index));
+                let snapshot = self.project.snapshots.get(*index)?;
+                Some(match &unstated_axes(&self.project, snapshot)[..] {
+                    [] => authored::restored(number, name, &keys),
+                    means => authored::restored_on(means, number, name, &keys),
+                })
+            }
+            Edit::Author(texture) => {
+                let means = unstated_axes(&self.project, texture);
+                (!means.is_empty()).then(|| authored::added_on(&means, &texture.name, &keys))
             }
             _ => None,
         }
@@ -229,8 +239,13 @@ impl Window {
             self.pages.author.library.reveal = Some(self.session.textures().len());
         }
         let said = self.said_of(&edit, ctx);
+        let replaces_axes = matches!(edit, Edit::OpenLibrary(_) | Edit::UseSpace(_));
+        let before = replaces_axes.then(|| self.project.clone());
         self.history.apply(&mut self.project, edit, self.gesture.current());
-        if let Some(said) = said {
+        let dropped = before.map_or_else(Vec::new, |before| dropped_axes(&before, &self.project));
+        if !dropped.is_empty() {
+            show_notice(ctx, axes::coordinates_dropped(&dropped, &Command::Undo.shortcut_text(ctx)));
+        } else if let Some(said) = said {
             show_notice(ctx, said);
         }
     }
@@ -327,7 +342,7 @@ impl Window {
             }
             Command::Show(workspace) => self.pages.workspace = workspace,
             Command::ReadJudgments(sources) => self.pages.build.read(sources, ctx),
-            Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library()),
+            Command::OpenSave => self.sheet = Sheet::Save(SaveSheet::library(&self.project)),
             Command::SaveFigure(figure) => {
                 self.sheet = Sheet::Save(SaveSheet::figure(figure, &self.exports_folder));
             }

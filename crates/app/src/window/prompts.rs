@@ -7,11 +7,12 @@ use shagreen_core::space::SpacePoint;
 use shagreen_formats::library::{TextureEntry, free_id, free_name, id_from_name};
 use shagreen_formats::picture::Picture;
 use shagreen_formats::project::AuthoredTexture;
+use shagreen_studio::added_places::LEAST_DISTANCE;
 use shagreen_studio::felt::{FELT_ORIGIN, felt_entry, replaceable_felt};
 
 use super::Window;
 use crate::author::new_texture::next_color;
-use crate::author::prompt::{PositionEstimate, Simulated, axis_names, has_still};
+use crate::author::prompt::{PositionEstimate, Simulated, has_still};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
 use crate::panel::Panel;
@@ -19,9 +20,6 @@ use crate::session::Session;
 use crate::state::edit::Edit;
 use crate::strings::prompt as words;
 use crate::workspace::Workspace;
-
-/// Smallest distance of a new texture from the others, in points of the axes.
-const LEAST_DISTANCE: f64 = 0.1;
 
 /// The estimate with the local mean of the textures on every axis without an estimate, in a space with more axes than the
 /// canvas.
@@ -39,8 +37,8 @@ impl Window {
         if self.prompts.is_busy() && interrupts {
             return self.session.say(words::STILL_BUSY.to_owned());
         }
-        let (texture, poles) = (self.project.texture(), self.session.poles());
-        if let Some(kept) = self.prompts.carry_out(command, texture, poles, ctx) {
+        let (texture, axes) = (self.project.texture(), self.session.axes());
+        if let Some(kept) = self.prompts.carry_out(command, texture, axes, ctx) {
             self.files.settings.note_prompt(kept);
         }
     }
@@ -66,12 +64,12 @@ impl Window {
             return;
         }
         let Some(done) = self.prompts.collect() else { return };
-        self.prompts.look_at_next(self.session.poles(), ctx);
+        self.prompts.look_at_next(self.session.axes(), ctx);
         let arrived = match done {
             Ok(arrived) => arrived,
             Err(reason) => return self.session.say(reason),
         };
-        if arrived.axes != axis_names(self.session.poles()) {
+        if arrived.axes != self.session.axes() {
             return self.session.say(words::OTHER_AXES.to_owned());
         }
         let guess = completed(arrived.guess, &self.session);
@@ -156,15 +154,21 @@ impl Window {
         is_its.then(|| Arc::clone(texture))
     }
 
-    /// Position of a texture that is simulated for an authored texture, if it may have one: a built space and chosen
-    /// attributes place only what has been rated, and two textures at one position form no space. `earlier` was simulated
-    /// for it before. Textures that take no part in the authored texture do not count.
+    /// Position on the axes of the library of a texture that is simulated for an authored texture, if no other texture lies there
+    /// ([`Window::is_free_for`]). In a built space and on chosen axes, the edit that adds the texture places it by name
+    /// ([`shagreen_studio::added_places`]).
     pub(super) fn position_for(
         &self,
         texture: &AuthoredTexture,
         earlier: Option<&Arc<TextureEntry>>,
     ) -> Option<SpacePoint> {
-        let is_own = self.project.space.is_none() && self.project.axes.is_none();
+        let is_as_filed = self.project.space.is_none() && self.project.axes.is_none();
+        (is_as_filed && self.is_free_for(texture, earlier)).then(|| self.session.fitted(texture.at))
+    }
+
+    /// Whether a texture can be placed at the point of an authored texture: of two textures at one position, only one can be
+    /// pinned. `earlier` was simulated for the authored texture before. Textures that take no part in it do not count.
+    pub(super) fn is_free_for(&self, texture: &AuthoredTexture, earlier: Option<&Arc<TextureEntry>>) -> bool {
         let replaced =
             earlier.filter(|earlier| replaceable_felt(&self.project, texture.key, earlier).is_some());
         let textures = self.session.textures();
@@ -173,6 +177,6 @@ impl Window {
             replaced.is_some_and(|replaced| replaced.id == textures[*index].id)
                 || site.distance(at) > LEAST_DISTANCE
         };
-        (is_own && self.session.placed_for(&texture.blend).iter().all(is_far)).then_some(at)
+        self.session.placed_for(&texture.blend).iter().all(is_far)
     }
 }

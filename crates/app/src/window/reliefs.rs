@@ -151,7 +151,7 @@ impl Window {
         let at = self.position_for(texture, None);
         let is_taken = |name: &str| self.session.textures().iter().any(|entry| entry.name == name);
         let name = free_name(&strings::with_relief(&texture.name), is_taken);
-        let is_shaped = at.is_none() && !texture.shape.is_neutral();
+        let is_shaped = !self.is_free_for(texture, None) && !texture.shape.is_neutral();
         let shape = if is_shaped { texture.shape } else { Shape::default() };
         let before = self.session.entry_of_authored(texture, &name, &shape)?;
         let before = TextureEntry { place: at.map(|at| Place::new(at, LabelSource::Estimated)), ..before };

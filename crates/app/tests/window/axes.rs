@@ -1,7 +1,14 @@
 //! Spaces with more axes than the canvas: the slice, the further sliders, the choice of the axes, and undo.
 
 mod choice;
+mod hull;
+mod inspector;
+mod of_library;
+mod own_textures;
+mod played_path;
 mod prompts;
+mod snapshots;
+mod unknown_axis;
 
 use egui::accesskit::Role;
 use egui::{Key, Pos2, Shape};
@@ -250,6 +257,8 @@ fn modes_with_triangles_wait_for_two_axes() {
     let mode = |h: &Author| window(h).session().authored().expect("a texture").mode;
     assert_eq!(mode(&harness), Mode::Field);
     assert!(says(&harness, strings::BEYOND), "the options of the field");
+    let waits = words::waits(strings::PAPER);
+    assert!(says(&harness, &waits), "a line in the inspector");
     harness.get_by_role_and_label(Role::ComboBox, strings::BLEND_MODE).click();
     harness.run_steps(3);
     for each in Mode::ALL {
@@ -264,6 +273,7 @@ fn modes_with_triangles_wait_for_two_axes() {
     harness.run_steps(3);
     use_axes(&mut harness, &["rough-smooth", "hard-soft"]);
     assert_eq!((window(&harness).project().texture().blend.mode, mode(&harness)), (Mode::Paper, Mode::Paper));
+    assert!(!says(&harness, &waits));
     choose(&mut harness, strings::BLEND_MODE, &mode_entry(Mode::Shared));
     assert_eq!(mode(&harness), Mode::Shared);
 }
@@ -286,8 +296,9 @@ fn swapped_axes_keep_the_point_and_undo_restores_everything() {
     let swapped = point(&harness);
     assert_eq!(swapped.coordinates(), [before.y(), before.x(), 64.0]);
     assert_eq!(window(&harness).session().poles()[0], ["hard", "soft"]);
-    let snapshot = window(&harness).project().snapshots[0].at;
-    assert_eq!((snapshot.n_axes(), snapshot.x(), snapshot.y()), (3, 50.0, 50.0));
+    let snapshot = &window(&harness).project().snapshots[0];
+    assert_eq!(snapshot.at, SpacePoint::plane(50.0, 50.0), "it stays on its axes");
+    assert_eq!(snapshot.axes, Some(AXES[..2].iter().map(|name| (*name).to_owned()).collect()));
     let apart = |a: &[(usize, f64)], b: &[(usize, f64)]| {
         let weight =
             |texture: usize| b.iter().find(|(of, _)| *of == texture).map_or(0.0, |(_, weight)| *weight);

@@ -105,6 +105,8 @@ fn what_is_heard_is_exported_as_a_signal() {
     let sidecar: SidecarV1 =
         serde_json::from_slice(&std::fs::read(folder.path().join("oak.json")).unwrap()).unwrap();
     assert_eq!((sidecar.rate_hz, sidecar.seconds, sidecar.at), (48_000, 5.0, Some(vec![50.0, 50.0])));
+    let named: Vec<(String, f64)> = sidecar.at_named.into_iter().flatten().collect();
+    assert_eq!(named, [("hard-soft".to_owned(), 50.0), ("rough-smooth".to_owned(), 50.0)]);
     assert_eq!((sidecar.trace.speed_mm_per_s[0], sidecar.blend.as_str()), (100.0, "field"));
     assert_eq!(sidecar.label_source.as_deref(), Some("physical"));
     let bytes = std::fs::read(&path).unwrap();

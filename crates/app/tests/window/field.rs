@@ -173,7 +173,9 @@ fn beyond_the_textures_only_where_that_is_asked_for() {
         on_canvas(&harness)
     );
     let at = beyond.location.at;
-    let said = if beyond.location.clamped {
+    // A limit that is not visibly nearer than the point is not mentioned.
+    let is_moved = SpacePoint::plane(99.0, 99.0).most_different_axis(at).is_some();
+    let said = if beyond.location.clamped && is_moved {
         strings::extrapolated_to(at)
     } else {
         strings::EXTRAPOLATED_HERE.to_owned()

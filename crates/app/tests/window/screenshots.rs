@@ -1,7 +1,8 @@
 //! Screenshots of every view at all supported sizes and scales in both themes, for people to look at.
 //!
 //! `SHAGREEN_SCREENSHOTS=DIR cargo test --workspace --test window screenshots` writes them; without the variable the test
-//! takes one view, to show that it still works.
+//! takes one view, to show that it still works. `SHAGREEN_SCREENSHOT_SIZES=2560x1440-1.5,2560x1440-2` limits the sizes, so
+//! that several processes can share them.
 
 use std::path::{Path, PathBuf};
 
@@ -50,10 +51,15 @@ fn screenshots_of_all_views() {
         assert_eq!(image::image_dimensions(folder.path().join("Author.png")).unwrap(), (960, 600));
         return;
     };
+    let wanted = std::env::var("SHAGREEN_SCREENSHOT_SIZES").unwrap_or_default();
     for (size, scale) in SIZES {
+        let name = format!("{}x{}-{scale}", size[0], size[1]);
+        if !wanted.is_empty() && !wanted.split(',').any(|wanted| wanted == name) {
+            continue;
+        }
         for is_light in [false, true] {
             let theme = if is_light { "light" } else { "dark" };
-            let folder = folder.join(format!("{}x{}-{scale}-{theme}", size[0], size[1]));
+            let folder = folder.join(format!("{name}-{theme}"));
             std::fs::create_dir_all(&folder).unwrap();
             let mut harness = opened(size, scale);
             if is_light {

@@ -67,15 +67,18 @@ impl<'a> HeatMapper<'a> {
         Self { prediction, ..mapper }
     }
 
-    /// Value at a point. `None` if the texture is silent there, if the point is outside the interpolated region, or if
-    /// there are too few textures for a prediction.
+    /// Value at a point. `None` if the texture is silent there, or if there are too few textures for a prediction.
+    ///
+    /// In a space with a triangulation, a point outside the interpolated region has no value either: the convex hull shows where
+    /// the region ends. With more axes, most of a slice may be outside, and nothing shows the hull. There, the value is that of the
+    /// texture that plays instead, at the nearest point of the region.
     pub fn at(&self, point: SpacePoint) -> Option<f64> {
         if self.quantity == Quantity::Distance {
             let distances = self.authoring.space().sites().iter().map(|(_, at)| at.distance(point));
             return distances.min_by(f64::total_cmp);
         }
         let authored = self.authoring.author(point, self.blending)?;
-        if authored.location.clamped {
+        if authored.location.clamped && self.authoring.space().is_triangulated() {
             return None;
         }
         let made: Vec<(Option<Plane>, usize, f64)> = authored
@@ -151,8 +154,10 @@ fn centroid_of(frequencies: &[Hertz], density: &[f64]) -> Hertz {
 #[cfg(test)]
 mod tests {
     use super::{HeatMapper, Quantity};
+    use std::sync::Arc;
+
     use crate::dsp::lsf::lsf_from_ar;
-    use crate::space::authoring::{Authoring, Blending};
+    use crate::space::authoring::{Authoring, Blending, Layers, Models};
     use crate::space::features::{centroid, level_db};
     use crate::space::{Space, SpacePoint};
     use crate::texture::blend::Mode;
@@ -232,6 +237,34 @@ mod tests {
         }
         let nearest = at(50.0, 90.0).distance(beyond).min(at(40.0, 60.0).distance(beyond));
         assert!((value(Quantity::Distance, beyond).unwrap() - nearest).abs() < 1e-12);
+    }
+
+    /// On three axes, the map shows what plays: the texture at the nearest point of the hull.
+    #[test]
+    fn beyond_a_hull_without_triangles_the_nearest_point_counts() {
+        let place = |i: u32| {
+            let along = |factor: u32, range: u32| f64::from(10 + (factor * i) % range);
+            SpacePoint::of(&[along(37, 80), along(53, 70), along(29, 60)]).unwrap()
+        };
+        let places: Vec<SpacePoint> = (0..12).map(place).collect();
+        let textures: Vec<TextureModel> =
+            places.iter().map(|at| texture(10.0_f64.powf(-0.3 * at.x() / 20.0), 0.9)).collect();
+        let planes: Vec<Plane> = textures.iter().map(Plane::new).collect();
+        let layers: Vec<Option<Layers<'_>>> =
+            textures.iter().zip(&planes).map(|(model, plane)| Some(Layers::of(model, plane))).collect();
+        let space = Space::new(&places.iter().map(|at| Some(*at)).collect::<Vec<_>>()).unwrap();
+        let models = Models::new(&space, &layers).unwrap();
+        let authoring = Authoring::new(space).with_models(Arc::new(models));
+        let planes: Vec<&Plane> = planes.iter().collect();
+        let blending = Blending::default();
+        let beyond = SpacePoint::of(&[95.0, 95.0, 5.0]).unwrap();
+        let nearest = authoring.space().locate(beyond).unwrap();
+        assert!(nearest.clamped && nearest.at.distance(beyond) > 10.0, "{nearest:?}");
+        for quantity in [Quantity::Level, Quantity::Centroid] {
+            let mapper = HeatMapper::new(&authoring, &planes, &blending, contact(), quantity);
+            let [outside, on_hull] = [beyond, nearest.at].map(|at| mapper.at(at).unwrap());
+            assert!((outside - on_hull).abs() < 1e-6, "{outside} for {on_hull}");
+        }
     }
 
     #[test]

@@ -164,11 +164,19 @@ pub enum LeaveOneOutError {
         /// Number of textures with a position.
         n: usize,
     },
-    /// No texture is strictly inside the hull of the others.
+    /// In a plane, no texture is strictly inside the hull of the others.
     #[error(
         "none of the {n} textures lies strictly inside the convex hull of the others (are all on one line?), so none can be interpolated; place some inside"
     )]
     NoneInside {
+        /// Number of textures with a position.
+        n: usize,
+    },
+    /// On one axis, no texture is strictly between two others.
+    #[error(
+        "none of the {n} textures lies strictly between two others on the axis, so none can be interpolated; place some between"
+    )]
+    NoneBetween {
         /// Number of textures with a position.
         n: usize,
     },
@@ -225,6 +233,7 @@ impl LeaveOneOutError {
             | Self::Render { texture, .. } => Some(*texture),
             Self::TooFew { .. }
             | Self::NoneInside { .. }
+            | Self::NoneBetween { .. }
             | Self::Blending(_)
             | Self::Space(_)
             | Self::Stopped => None,
@@ -233,8 +242,8 @@ impl LeaveOneOutError {
 }
 
 /// Interpolates every texture that lies strictly inside the hull of the others from the remaining textures, and
-/// compares it with the original. In a space with more than two axes nearly all textures lie on the hull, so all are
-/// evaluated. `textures` is indexed like the library; textures without a position are ignored.
+/// compares it with the original. On one axis, these are all but the textures at its ends. In a space with more than two
+/// axes nearly all textures lie on the hull, so all are evaluated. `textures` is indexed like the library; textures without a position are ignored.
 ///
 /// `on_progress` receives the number of finished textures and their total; returning `false` stops the evaluation.
 /// Cost: one [`crate::space::authoring::Models::new`] per texture, tenths of a second for a hundred textures.
@@ -290,7 +299,13 @@ fn measure(
         }
     }
     if inside.is_empty() {
-        return Err(LeaveOneOutError::NoneInside { n: placed.len() });
+        let n = placed.len();
+        let is_line = placed.iter().all(|texture| texture.at.n_axes() == 1);
+        return Err(if is_line {
+            LeaveOneOutError::NoneBetween { n }
+        } else {
+            LeaveOneOutError::NoneInside { n }
+        });
     }
     let rendered_every = signals.map(|plan| inside.len().div_ceil(plan.n_textures.max(1)));
     let mut left_out = Vec::with_capacity(inside.len());

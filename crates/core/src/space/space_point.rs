@@ -10,8 +10,11 @@ pub const MOST_AXES: usize = 6;
 /// Coordinates in the unit cube; those of axes that the space does not have are zero.
 pub(crate) type Unit = [f64; MOST_AXES];
 
-/// Coordinate on an axis that a point does not have.
-const MIDDLE: f64 = 50.0;
+/// Middle of an axis: the coordinate of a point on an axis where nothing else is known.
+pub const MIDDLE: f64 = 50.0;
+
+/// Half of the last decimal with which points are displayed, in points of the axes.
+const HALF_OF_LAST_DECIMAL: f64 = 0.05;
 
 /// A point of the space, with one coordinate for each of its one to [`MOST_AXES`] axes.
 ///
@@ -140,6 +143,9 @@ impl SpacePoint {
     #[must_use]
     pub fn on(mut self, n_axes: usize) -> Self {
         let n_axes = n_axes.clamp(1, MOST_AXES);
+        if n_axes == self.n_axes {
+            return self;
+        }
         for axis in 0..MOST_AXES {
             if axis >= n_axes {
                 self.coordinates[axis] = 0.0;
@@ -167,10 +173,24 @@ impl SpacePoint {
 
     /// Euclidean distance to another point, in points of the axes.
     pub fn distance(self, other: Self) -> f64 {
-        // Exact for two axes: the distance on further ones is zero.
+        // The same bits for two axes as in the plane.
         let [x, y, further @ ..] =
             std::array::from_fn::<f64, MOST_AXES, _>(|axis| self.coordinates[axis] - other.coordinates[axis]);
-        further.iter().fold(x.hypot(y), |sum, distance| sum.hypot(*distance))
+        let n_further = self.n_axes.max(other.n_axes).saturating_sub(2);
+        further[..n_further].iter().fold(x.hypot(y), |sum, distance| sum.hypot(*distance))
+    }
+
+    /// Axis, counted from 0, on which another point differs most from this one as points are displayed, with one decimal.
+    /// `None` if all displayed coordinates are equal, or if the points are at most half of the last decimal apart.
+    pub fn most_different_axis(self, other: Self) -> Option<usize> {
+        if self.distance(other) <= HALF_OF_LAST_DECIMAL {
+            return None;
+        }
+        let shown = |value: f64| format!("{value:.1}");
+        let difference = |axis: usize| Some((self.get(axis)? - other.get(axis)?).abs());
+        let is_shown = |axis: &usize| self.get(*axis).map(shown) != other.get(*axis).map(shown);
+        let different = (0..self.n_axes).filter(is_shown).filter_map(|axis| Some((axis, difference(axis)?)));
+        different.max_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(axis, _)| axis)
     }
 
     /// Coordinates on the first two axes, scaled to the unit square.
@@ -250,6 +270,18 @@ mod tests {
         assert_eq!(moved.coordinates(), [1.0, 2.0, 30.0, 40.0]);
         let one = SpacePoint::of(&[7.0]).unwrap();
         assert_eq!((one.y(), one.on_canvas_at(point).coordinates()), (50.0, [10.0].as_slice()));
+    }
+
+    #[test]
+    fn points_that_look_equal_differ_on_no_axis() {
+        let from = SpacePoint::of(&[48.86, 49.74, 34.0]).unwrap();
+        let differs = |coordinates: [f64; 3]| from.most_different_axis(SpacePoint::of(&coordinates).unwrap());
+        assert_eq!(differs([48.86, 49.74, 34.0]), None);
+        assert_eq!(differs([48.86, 49.76, 34.0]), None, "less than half of the last decimal");
+        // A larger distance that no displayed digit shows.
+        assert_eq!(differs([48.94, 49.74, 34.0]), None);
+        assert_eq!(differs([48.94, 49.79, 34.0]), Some(1), "the axis whose digits differ");
+        assert_eq!(differs([50.0, 49.0, 62.0]), Some(2));
     }
 
     proptest! {

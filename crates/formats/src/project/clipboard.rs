@@ -15,7 +15,9 @@
 //! chosen, with the words at both ends of each axis, and `pinned` names its pinned textures, so that another project can say what it lacks. `textures`, if there are any,
 //! are those of the pinned textures that were added to its project, in the format of a library: no other library has them.
 //!
-//! `axes` has one entry for each coordinate of the texture. With another number of axes than two, the version is 2.
+//! `axes` has one entry for each coordinate of the texture. Version 2 adds `axis_names`, the names of these axes in the
+//! project, such as `["rough-smooth", "attribute:flat-bumpy", "centroid"]`: an attribute has the words of a position of the same
+//! name. A text has version 2 if it has another number of axes than two, or an axis that is named as an attribute.
 
 use std::collections::BTreeMap;
 
@@ -32,15 +34,15 @@ use crate::parser_words::plain;
 use crate::project::read::authored_texture;
 use crate::project::v1::AuthoredV1;
 use crate::project::write::authored;
-use crate::project::{AuthoredTexture, ProjectError};
+use crate::project::{AuthoredTexture, ProjectError, plain_axis_name};
 use crate::text_limits::{self, MAX_ID, MAX_NAME, MAX_NOTES};
 
 /// Value of the `shagreen` field.
 const KIND: &str = "authored texture";
-/// Version of a texture on two axes.
+/// Version of a texture on two axes that are known by their words.
 const VERSION: u32 = 1;
-/// Version of a texture on another number of axes.
-const VERSION_FURTHER_AXES: u32 = 2;
+/// Version with the names of the axes.
+const VERSION_AXIS_NAMES: u32 = 2;
 /// Maximum length of the text, in bytes; it may contain a picture.
 const MAX_BYTES: usize = 16 << 20;
 /// Nesting depth up to which values get their own lines.
@@ -55,6 +57,9 @@ pub struct CopiedTexture {
     pub library: String,
     /// Words at both ends of each axis, the x axis first, then the y axis; one entry for each coordinate of the texture.
     pub axes: Vec<[String; 2]>,
+    /// Names of these axes in its project. Empty if the text has only the words: then there are two, and none is named as an
+    /// attribute.
+    pub axis_names: Vec<String>,
     /// Names of its pinned textures, by identifier.
     pub pinned: BTreeMap<String, String>,
     /// The pinned textures that were added to its project.
@@ -70,7 +75,7 @@ pub enum CopiedTextureError {
     Foreign,
     /// Another version of the format.
     #[error(
-        "the authored texture on the clipboard has version {found}, but this program reads the versions {VERSION} and {VERSION_FURTHER_AXES}; copy it with this version of Shagreen"
+        "the authored texture on the clipboard has version {found}, but this program reads the versions {VERSION} and {VERSION_AXIS_NAMES}; copy it with this version of Shagreen"
     )]
     Version {
         /// Value of the `version` field.
@@ -105,6 +110,8 @@ struct CopiedV1 {
     version: u32,
     library: String,
     axes: Vec<[String; 2]>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    axis_names: Vec<String>,
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pinned: BTreeMap<String, String>,
     texture: AuthoredV1,
@@ -128,27 +135,27 @@ pub fn write_copied_texture(copied: &CopiedTexture) -> String {
 }
 
 fn written(copied: &CopiedTexture, textures: &[TextureEntry]) -> String {
+    let has_names = needs_names(copied);
+    let mut texture = copied.texture.clone();
+    // It may have other coordinates if the library of its project has changed.
+    texture.fit(copied.axes.len());
     let wire = CopiedV1 {
         shagreen: KIND.to_owned(),
-        version: if copied.axes.len() == 2 { VERSION } else { VERSION_FURTHER_AXES },
+        version: if has_names { VERSION_AXIS_NAMES } else { VERSION },
         library: copied.library.clone(),
         axes: copied.axes.clone(),
+        axis_names: if has_names { copied.axis_names.clone() } else { Vec::new() },
         pinned: copied.pinned.clone(),
-        texture: authored(&on_axes(&copied.texture, copied.axes.len())),
+        texture: authored(&texture),
         textures: textures.iter().map(texture_wire).collect(),
     };
     // JSON is UTF-8, so nothing is lost.
     String::from_utf8_lossy(&layout::to_bytes(&wire, OPEN_DEPTH)).into_owned()
 }
 
-/// The texture with one coordinate for each axis: it may have others if the library of its project has changed.
-fn on_axes(texture: &AuthoredTexture, n_axes: usize) -> AuthoredTexture {
-    let mut texture = texture.clone();
-    texture.at = texture.at.on(n_axes);
-    for point in texture.path.iter_mut().flat_map(|path| &mut path.points) {
-        *point = point.on(n_axes);
-    }
-    texture
+/// Whether the words do not say which the axes are, or older programs do not know so many.
+fn needs_names(copied: &CopiedTexture) -> bool {
+    copied.axes.len() != 2 || copied.axis_names.iter().any(|name| plain_axis_name(name) != name)
 }
 
 /// Reads a copied texture; every value is checked.
@@ -172,7 +179,7 @@ pub fn read_copied_texture(text: &str) -> Result<CopiedTexture, CopiedTextureErr
     if mark.shagreen != KIND {
         return Err(CopiedTextureError::Foreign);
     }
-    if mark.version != VERSION && mark.version != VERSION_FURTHER_AXES {
+    if mark.version != VERSION && mark.version != VERSION_AXIS_NAMES {
         let found = mark.version.to_string().chars().take(20).collect();
         return Err(CopiedTextureError::Version { found });
     }
@@ -188,7 +195,7 @@ fn checked(wire: CopiedV1) -> Result<CopiedTexture, ProjectError> {
     for tag in &texture.tags {
         text_limits::check("a tag of an authored texture", tag, MAX_NAME)?;
     }
-    for word in wire.axes.iter().flatten() {
+    for word in wire.axes.iter().flatten().chain(&wire.axis_names) {
         text_limits::check("the name of an axis", word, MAX_NAME)?;
     }
     for id in wire.pinned.keys().chain(&texture.blend.locked) {
@@ -199,17 +206,23 @@ fn checked(wire: CopiedV1) -> Result<CopiedTexture, ProjectError> {
     }
     let entry = |wire| texture_entry(wire).map_err(|source| ProjectError::Library { path: None, source });
     let texture = authored_texture(wire.texture)?;
-    if wire.axes.len() != texture.at.n_axes() {
-        let (n, n_axes) = (texture.at.n_axes(), wire.axes.len());
+    let n = texture.at.n_axes();
+    let n_named = if wire.axis_names.is_empty() { n } else { wire.axis_names.len() };
+    if let Some(n_axes) = [wire.axes.len(), n_named].into_iter().find(|n_axes| *n_axes != n) {
         return Err(ProjectError::AxisCount { name: texture.name, n, n_axes });
     }
-    Ok(CopiedTexture {
+    let mut copied = CopiedTexture {
         textures: wire.textures.into_iter().map(entry).collect::<Result<_, _>>()?,
         texture,
         library: wire.library,
         axes: wire.axes,
+        axis_names: wire.axis_names,
         pinned: wire.pinned,
-    })
+    };
+    if !needs_names(&copied) {
+        copied.axis_names.clear();
+    }
+    Ok(copied)
 }
 
 #[cfg(test)]
@@ -239,6 +252,7 @@ mod tests {
             },
             library: "Starter library".to_owned(),
             axes: [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned)).to_vec(),
+            axis_names: Vec::new(),
             pinned: BTreeMap::from([("oak".to_owned(), "Oak".to_owned())]),
             textures: Vec::new(),
         }
@@ -266,6 +280,7 @@ mod tests {
             let mut copied = copied();
             copied.texture.at = copied.texture.at.on(n_axes).with(n_axes - 1, 12.5);
             copied.axes = (0..n_axes).map(ends).collect();
+            copied.axis_names = (0..n_axes).map(|axis| format!("dimension {axis}")).collect();
             let text = write_copied_texture(&copied);
             assert!(text.contains("\"version\": 2"), "older programs say so: {text}");
             assert_eq!(read_copied_texture(&text).unwrap(), copied);
@@ -275,8 +290,27 @@ mod tests {
             ..copied()
         };
         assert_eq!(read_copied_texture(&write_copied_texture(&changed_library)).unwrap(), copied());
-        let fewer = changed(|value| value["axes"] = json!([["rough", "smooth"]])).unwrap_err().to_string();
-        assert!(fewer.contains("\"Eiche, geölt\" has 2 coordinates, but the number of axes is 1"), "{fewer}");
+        for (field, axes) in [("axes", json!([["rough", "smooth"]])), ("axis_names", json!(["rough-smooth"]))]
+        {
+            let fewer = changed(|value| value[field] = axes).unwrap_err().to_string();
+            assert!(
+                fewer.contains("\"Eiche, geölt\" has 2 coordinates, but the number of axes is 1"),
+                "{fewer}"
+            );
+        }
+    }
+
+    /// The words of an attribute are those of a position of the same name.
+    #[test]
+    fn two_axes_are_named_only_where_their_words_are_ambiguous() {
+        let with =
+            |names: [&str; 2]| CopiedTexture { axis_names: names.map(str::to_owned).to_vec(), ..copied() };
+        let attribute = with(["attribute:rough-smooth", "hard-soft"]);
+        let text = write_copied_texture(&attribute);
+        assert!(text.contains("\"version\": 2"), "{text}");
+        assert_eq!(read_copied_texture(&text).unwrap(), attribute);
+        let text = write_copied_texture(&with(["rough-smooth", "hard-soft"]));
+        assert_eq!(text, write_copied_texture(&copied()), "as older programs read it");
     }
 
     #[test]

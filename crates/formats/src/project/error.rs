@@ -187,6 +187,16 @@ pub enum ProjectError {
         "`axes` must be one to six different names of axes; correct them, or remove `axes` to use the positions of the textures"
     )]
     Axes,
+    /// The axes of a snapshot do not fit its position.
+    #[error(
+        "`axes` of the snapshot of \"{name}\" must be one different name for each of its coordinates ({n}); correct or remove them"
+    )]
+    SnapshotAxes {
+        /// Name of the texture.
+        name: String,
+        /// Number of coordinates of its position.
+        n: usize,
+    },
     /// A number is out of range.
     #[error("\"{name}\" has {field} {value}; {needs}")]
     Number {

@@ -33,6 +33,7 @@ impl Project {
         }
         let now = |id: &String| renamed.get(id).unwrap_or(id).clone();
         self.own = self.own.iter().map(now).collect();
+        self.coordinates.rename(&renamed);
         let follow = |texture: &mut Arc<AuthoredTexture>| {
             if texture.blend.locked.iter().any(|id| renamed.contains_key(id)) {
                 let locked = texture.blend.locked.iter().map(now).collect();

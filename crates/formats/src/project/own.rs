@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::library::v1::TextureV1;
 use crate::library::write::texture;
 use crate::library::{Library, TextureEntry};
-use crate::project::{BlendChoice, Project, ProjectError};
+use crate::project::{BlendChoice, Project, ProjectError, coordinates};
 
 /// Name of the mark among the fields of an added texture.
 const FIELD: &str = "own";
@@ -88,7 +88,7 @@ pub(super) fn read(wire: &mut TextureV1) -> Result<bool, ProjectError> {
     }
 }
 
-/// The added textures, with their marks.
+/// The added textures, with their marks and coordinates.
 pub(super) fn write(project: &Project) -> Vec<TextureV1> {
     let marked = |(joined, entry): (usize, &Arc<TextureEntry>)| {
         let mut wire = texture(entry);
@@ -96,6 +96,7 @@ pub(super) fn write(project: &Project) -> Vec<TextureV1> {
         if project.is_own(joined) {
             wire.unknown.insert(FIELD.to_owned(), Value::Bool(true));
         }
+        coordinates::write(&project.coordinates, &mut wire);
         wire
     };
     project.joined.iter().enumerate().map(marked).collect()

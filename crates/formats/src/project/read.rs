@@ -27,8 +27,8 @@ use crate::project::v1::{
 };
 use crate::project::write::{OUTSIDES, UNITS, WEIGHTS, WITH_FURTHER_AXES};
 use crate::project::{
-    AuthoredTexture, BlendChoice, FORMAT, LibraryFile, N_COLORS, Project, ProjectError, ProjectLibrary,
-    VERSION_MAJOR, VERSION_MINOR, axes, listed_ids, own, shape,
+    AddedCoordinates, AuthoredTexture, BlendChoice, FORMAT, LibraryFile, N_COLORS, Project, ProjectError,
+    ProjectLibrary, VERSION_MAJOR, VERSION_MINOR, axes, coordinates, listed_ids, own, shape,
 };
 use crate::text_limits::{self, MAX_NAME, MAX_NOTES};
 
@@ -69,14 +69,19 @@ fn read_with(
     check_units(&wire.units)?;
     let library = library_of(wire.library, &mut warnings)?;
     let inside = |source: LibraryError| ProjectError::Library { path: None, source };
-    let (mut joined, mut marks) = (Vec::with_capacity(wire.joined.len()), Vec::new());
+    let (mut joined, mut marks, mut stated) = (Vec::with_capacity(wire.joined.len()), Vec::new(), Vec::new());
     for mut wire in wire.joined {
         marks.push(own::read(&mut wire)?);
+        stated.push(coordinates::read(&mut wire)?);
         joined.push(Arc::new(texture(wire).map_err(inside)?));
     }
     let joined = listed_ids::listed(&library, joined);
     let marked = joined.iter().zip(&marks).filter(|(_, is_own)| **is_own);
     let own: BTreeSet<String> = marked.map(|(entry, _)| entry.id.clone()).collect();
+    let mut coordinates = AddedCoordinates::default();
+    for (entry, stated) in joined.iter().zip(stated) {
+        coordinates.add(&entry.id, stated);
+    }
     let space = wire.space.map(placed_space).transpose().map_err(inside)?.map(Arc::new);
     text_limits::check("the notes of the project", &wire.notes, MAX_NOTES)?;
     for texture in wire.authored.iter().chain(&wire.snapshots) {
@@ -87,13 +92,13 @@ fn read_with(
         text_limits::check("the name of a texture", name, MAX_NAME)?;
     }
     let is_older = minor < WITH_FURTHER_AXES;
-    let axes = axes::read(wire.axes, is_older, || axes::own(&library, space.as_deref()))?;
+    let axes = axes::read(wire.axes, is_older, &axes::own(&library, space.as_deref()))?;
     let mut authored: Vec<Arc<AuthoredTexture>> = wire
         .authored
         .into_iter()
         .map(|wire| authored_texture(wire).map(Arc::new))
         .collect::<Result<_, _>>()?;
-    let snapshots = wire.snapshots.into_iter().map(|wire| authored_texture(wire).map(Arc::new));
+    let snapshots = wire.snapshots.into_iter().map(|wire| snapshot(wire).map(Arc::new));
     let snapshots = snapshots.collect::<Result<_, _>>()?;
     check_keys(&authored)?;
     if authored.is_empty() {
@@ -109,6 +114,7 @@ fn read_with(
             library,
             joined,
             own,
+            coordinates,
             renamed: wire.renamed,
             starred: wire.starred,
             space,
@@ -300,6 +306,7 @@ pub(super) fn authored_texture(wire: AuthoredV1) -> Result<AuthoredTexture, Proj
         notes: wire.notes,
         tags: wire.tags,
         at,
+        axes: None,
         blend: blend(&name, wire.blend)?,
         shape,
         path: wire.path.map(|wire| drawn_path(&name, at.n_axes(), wire)).transpose()?,
@@ -307,6 +314,17 @@ pub(super) fn authored_texture(wire: AuthoredV1) -> Result<AuthoredTexture, Proj
         unknown,
         name,
     })
+}
+
+/// A snapshot, which may have axes of its own.
+fn snapshot(mut wire: AuthoredV1) -> Result<AuthoredTexture, ProjectError> {
+    let axes = wire.axes.take();
+    let texture = authored_texture(wire)?;
+    let n = texture.at.n_axes();
+    if axes.as_ref().is_some_and(|axes| axes.len() != n || !axes::are_possible(axes)) {
+        return Err(ProjectError::SnapshotAxes { name: texture.name, n });
+    }
+    Ok(AuthoredTexture { axes, ..texture })
 }
 
 fn blend(name: &str, wire: BlendV1) -> Result<BlendChoice, ProjectError> {

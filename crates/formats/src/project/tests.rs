@@ -426,8 +426,9 @@ fn what_is_heard_is_what_the_mode_can_do() {
 fn the_mode_is_field_without_triangles_and_the_choice_stays() {
     let paper = BlendChoice { mode: Mode::Paper, ..full().authored[1].blend.clone() };
     for n_axes in [1, 2] {
-        assert_eq!(*paper.in_space(n_axes), paper);
+        assert_eq!((paper.mode_in_space(n_axes), &*paper.in_space(n_axes)), (Mode::Paper, &paper));
     }
     let field = BlendChoice { mode: Mode::Field, ..paper.clone() };
     assert_eq!((&*paper.in_space(3), &*field.in_space(6)), (&field, &field));
+    assert_eq!((paper.mode_in_space(3), field.mode_in_space(6)), (Mode::Field, Mode::Field));
 }

@@ -75,6 +75,9 @@ pub(super) struct AuthoredV1 {
     pub(super) tags: Vec<String>,
     #[serde(flatten)]
     pub(super) at: CoordinatesV1,
+    /// Since 1.3, of a snapshot.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) axes: Option<Vec<String>>,
     pub(super) blend: BlendV1,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) shape: Option<ShapeV1>,

@@ -18,8 +18,8 @@ use crate::project::v1::{
     AuthoredV1, BlendV1, DrawnPathV1, PlacedSpaceV1, PlacedTextureV1, ProjectLibraryV1, ProjectV1, UnitsV1,
 };
 use crate::project::{
-    AuthoredTexture, BlendChoice, FORMAT, LibraryFile, Project, ProjectLibrary, VERSION_MAJOR, axes, own,
-    shape,
+    AuthoredTexture, BlendChoice, FORMAT, LibraryFile, Project, ProjectLibrary, VERSION_MAJOR, axes,
+    coordinates, own, shape,
 };
 
 /// Quantities of the format and their units, in the order of [`UnitsV1`].
@@ -35,7 +35,8 @@ pub(super) const OUTSIDES: [(Outside, &str); 2] =
 const WITH_SHAPES: u32 = 1;
 /// The minor version that introduced added textures that only some authored textures use.
 const WITH_OWN: u32 = 2;
-/// The minor version that introduced spaces with another number of axes than two, and axes that are no attributes.
+/// The minor version that introduced spaces with another number of axes than two, axes that are no attributes, axes of snapshots,
+/// and coordinates of added textures.
 pub(super) const WITH_FURTHER_AXES: u32 = 3;
 
 /// Nesting depth up to which values get their own lines. Each anchor of an embedded library (in project, library,
@@ -75,13 +76,11 @@ pub fn write_project(project: &Project, folder: &Path, created_by: &str) -> Vec<
 fn minor_version(project: &Project) -> u32 {
     let textures = || project.authored.iter().chain(&project.snapshots);
     let is_plane = |at: &SpacePoint| at.n_axes() == USUAL_AXES.len();
-    let has_two_axes = |texture: &AuthoredTexture| {
-        is_plane(&texture.at) && texture.path.iter().flat_map(|path| &path.points).all(is_plane)
-    };
     let placed = project.space.iter().flat_map(|space| &space.textures).map(|texture| &texture.place);
     let mut places = placed.chain(project.joined.iter().filter_map(|entry| entry.place.as_ref()));
     if axes::is_needed(project)
-        || !textures().all(|texture| has_two_axes(texture))
+        || coordinates::is_needed(project)
+        || !textures().all(|texture| is_plane(&texture.at) && texture.axes.is_none())
         || !places.all(|place| is_plane(&place.at))
     {
         return WITH_FURTHER_AXES;
@@ -147,6 +146,7 @@ pub(super) fn authored(texture: &AuthoredTexture) -> AuthoredV1 {
         notes: texture.notes.clone(),
         tags: texture.tags.clone(),
         at: CoordinatesV1::of(texture.at, |coordinate| coordinate),
+        axes: texture.axes.clone(),
         blend: blend(&texture.blend),
         shape,
         unknown,
@@ -155,7 +155,12 @@ pub(super) fn authored(texture: &AuthoredTexture) -> AuthoredV1 {
             at_end: path.at_end.id().to_owned(),
             length_mm: digits(1e3 * path.length_m, CONVERSION_DIGITS),
             length_s: path.length_secs,
-            points: path.points.iter().map(|point| point.coordinates().to_vec()).collect(),
+            // A point with another number of coordinates would be refused when the project is opened again.
+            points: path
+                .points
+                .iter()
+                .map(|point| point.on(texture.at.n_axes()).coordinates().to_vec())
+                .collect(),
         }),
         picture: texture.picture.as_deref().map(picture),
     }

@@ -55,6 +55,7 @@ pub(crate) fn copied_texture_seeds() -> Vec<Vec<u8>> {
         texture: AuthoredTexture::clone(texture),
         library: "Starter library".to_owned(),
         axes: [["rough", "smooth"], ["hard", "soft"]].map(|ends| ends.map(str::to_owned)).to_vec(),
+        axis_names: ["attribute:rough-smooth", "hard-soft"].map(str::to_owned).to_vec(),
         pinned: [("cork".to_owned(), "Cork".to_owned())].into(),
         textures: vec![starter_library().unwrap().textures.swap_remove(0)],
     };

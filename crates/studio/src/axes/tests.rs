@@ -1,13 +1,13 @@
 use super::{
-    AxesError, AxisSource, KnownAxis, axis_poles, axis_values, evaluate, known_axes, moved_to_axes,
-    placed_on, places_on, presets,
+    AxesError, AxisColumns, AxisSource, KnownAxis, axis_poles, axis_values, evaluate, known_axes, placed_on,
+    presets,
 };
 use crate::project::{new_project, textures_of, textures_on_axes};
 use shagreen_core::space::axis_evaluation::AxisEvaluationError;
 use shagreen_core::space::signal_axes::SignalAxis;
-use shagreen_core::space::{LabelSource, SpacePoint, local_mean};
+use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_formats::library::{Attribute, Attributes, Library, Place, read_library, write_library};
-use shagreen_formats::project::read_project;
+use shagreen_formats::project::{AddedCoordinates, read_project};
 use shagreen_formats::starter::{simulated_library, starter_library};
 use std::path::Path;
 
@@ -38,6 +38,12 @@ fn axes_of_positions_come_before_attributes_and_features() {
     ];
     assert_eq!(found, [&expected[..], &signals[..]].concat());
     assert!(known.iter().all(|axis| axis.n_known == 25), "{known:?}");
+    for axis in known {
+        let values: Vec<f64> = axis_values(&simulated(), &axis.name).unwrap().into_iter().flatten().collect();
+        let [low, high] = axis.range;
+        assert!(low < high && values.contains(&low) && values.contains(&high), "{}", axis.name);
+        assert!(values.iter().all(|value| (low..=high).contains(value)), "{}", axis.name);
+    }
 }
 
 #[test]
@@ -84,8 +90,6 @@ fn own_axes_leave_the_library_as_it_is() {
     let library = simulated();
     let own = named(&["rough-smooth", "hard-soft"]);
     assert_eq!(placed_on(&library, &own).unwrap(), library);
-    let places: Vec<Option<Place>> = library.textures.iter().map(|texture| texture.place).collect();
-    assert_eq!(places_on(&library, &own).unwrap(), places);
     // Even without positions.
     assert_eq!(placed_on(&Library::default(), &own).unwrap(), Library::default());
 }
@@ -102,14 +106,20 @@ fn a_texture_without_an_axis_has_no_position() {
     let expected = [Some(before.at().unwrap().x()), bumpy, SignalAxis::Centroid.of(&before.model)];
     let at = placed.textures[0].at().unwrap();
     assert_eq!([0, 1, 2].map(|axis| at.get(axis)), expected);
-    assert_eq!(
-        placed.positions(),
-        places_on(&library, &axes)
-            .unwrap()
-            .into_iter()
-            .map(|place| place.map(|place| place.at))
-            .collect::<Vec<_>>()
-    );
+    // The coordinates are kept for the next choice of axes, with the same result.
+    let mut columns = AxisColumns::default();
+    let places: Vec<Option<Place>> = placed.textures.iter().map(|texture| texture.place).collect();
+    for axes in [&axes[1..], &axes[..]] {
+        let found = columns.places(&library, axes, &AddedCoordinates::default());
+        assert_eq!(
+            found,
+            placed_on(&library, axes).unwrap().textures.iter().map(|t| t.place).collect::<Vec<_>>()
+        );
+    }
+    let nothing = AddedCoordinates::default();
+    assert_eq!(columns.places(&library, &axes, &nothing), places);
+    let unknown = columns.places(&library, &named(&["rough-smooth", "sour-sweet"]), &nothing);
+    assert_eq!(unknown, vec![None; library.textures.len()]);
     // Nothing else changes.
     for (before, after) in library.textures.iter().zip(&placed.textures) {
         assert_eq!(before.model, after.model);
@@ -215,42 +225,14 @@ fn presets_need_all_of_their_axes() {
 }
 
 #[test]
-fn a_moved_point_keeps_the_axes_that_stay() {
-    let library = simulated();
-    let plane = named(&["rough-smooth", "hard-soft"]);
-    let further = named(&["hard-soft", "flat-bumpy", "warm-cold"]);
-    let at = SpacePoint::plane(30.0, 70.0);
-    let moved = moved_to_axes(&library, at, &plane, &further);
-    assert_eq!((moved.n_axes(), moved.x(), moved.get(2)), (3, 70.0, Some(50.0)), "nothing is warm");
-    let mean = local_mean(&library.positions(), &axis_values(&library, "flat-bumpy").unwrap(), at);
-    assert_eq!(Some(moved.y()), mean);
-    // There and back, only the axes that were left are means.
-    let back = moved_to_axes(&library, moved, &further[..2], &plane);
-    assert_eq!(back.y(), 70.0);
-    assert_eq!(moved_to_axes(&library, at, &plane, &plane), at);
-    let swapped = moved_to_axes(&library, at, &plane, &named(&["hard-soft", "rough-smooth"]));
-    assert_eq!(swapped, SpacePoint::plane(70.0, 30.0));
-    // A library that already has positions on the axes gives the same.
-    let wanted = named(&["centroid"]);
-    let placed = placed_on(&library, &further[..2]).unwrap();
-    let from = SpacePoint::plane(40.0, 20.0);
-    assert_eq!(
-        moved_to_axes(&placed, from, &further[..2], &wanted),
-        moved_to_axes(&library, from, &further[..2], &wanted)
-    );
-    // Axes that nothing has give no mean.
-    let unknown = named(&["warm-cold"]);
-    assert_eq!(moved_to_axes(&library, from, &unknown, &plane), SpacePoint::plane(50.0, 50.0));
-}
-
-#[test]
 fn poles_are_words() {
     for (name, expected) in [
         ("rough-smooth", ["rough", "smooth"]),
         ("attribute:rough-smooth", ["rough", "smooth"]),
         ("centroid", ["dull", "bright"]),
         ("speed-exponent", ["same at any speed", "louder when fast"]),
-        ("dimension 2", ["low", "high"]),
+        ("dimension 2", ["low dimension 2", "high dimension 2"]),
+        ("attribute:dimension 12", ["low dimension 12", "high dimension 12"]),
         ("warm", ["warm", ""]),
     ] {
         assert_eq!(axis_poles(name), expected, "{name}");

@@ -1,5 +1,6 @@
 //! Textures with a relief in a project.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use shagreen_formats::library::TextureEntry;
@@ -29,6 +30,7 @@ pub fn join_relief(project: &mut Project, entry: Arc<TextureEntry>, place: Relie
             if project.own.remove(&replaced.id) {
                 project.own.insert(id.clone());
             }
+            project.coordinates.rename(&BTreeMap::from([(replaced.id.clone(), id.clone())]));
             *replaced = entry;
         }
         ReliefPlace::Added => {

@@ -31,9 +31,9 @@ pub(super) fn ellipse_ui(ui: &Ui, axes: Axes, [across, up]: [Estimate; 2], color
 /// Draws an ellipse around each texture of the selected authored texture whose position was estimated with a standard
 /// deviation, unless it is far from the slice that the canvas shows.
 pub(super) fn site_ellipses_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
-    let slice = Slice::of(panel);
+    let slice = panel.session.is_sliced().then(|| Slice::of(panel));
     for (texture, at) in panel.session.placed_for(&panel.project.texture().blend) {
-        if !is_named(slice.nearness(at)) {
+        if slice.is_some_and(|slice| !is_named(slice.nearness(at))) {
             continue;
         }
         let Some([across, up]) = panel.session.place_deviation(texture) else { continue };

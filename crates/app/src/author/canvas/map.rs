@@ -109,7 +109,6 @@ fn add_polygon(mesh: &mut Mesh, corners: &[Pos2], picture: Rect, soft: f32, colo
 pub(super) fn scale_ui(ui: &mut Ui, map: &ShownMap, t: &Tokens) {
     let (low, high) = match map.range {
         Some((low, high)) => (strings::value(map.quantity, low), strings::value(map.quantity, high)),
-        // A slice may lie outside the convex hull.
         None if map.picture.is_some() => (strings::NO_VALUES.to_owned(), String::new()),
         None => (strings::WAITING.to_owned(), String::new()),
     };
@@ -131,7 +130,13 @@ pub(super) fn scale_ui(ui: &mut Ui, map: &ShownMap, t: &Tokens) {
     }
     let corner = pos2(left + SCALE.x + 5.0, line - 0.5 * high_text.size().y);
     ui.painter().galley(corner, high_text, t.text_weak);
-    response.on_hover_text(strings::help(Some(map.quantity)));
+    let help = strings::help(Some(map.quantity));
+    let has_no_values = map.picture.is_some() && map.range.is_none();
+    response.on_hover_text(if has_no_values {
+        format!("{help}. {}", strings::NO_VALUES_HELP)
+    } else {
+        help.to_owned()
+    });
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ use self::compared_point::{compared_point, compared_point_ui};
 use self::fan::fanned;
 use self::names_ui::names_ui;
 use super::path_tool::PathTool;
+use super::status_line::{moved_axis, played_point};
 use super::{BIG_STEP, POINT_SIZE, SITE_RADIUS, move_to, point_id, site_radius};
 use crate::author::authored_menu::{authored_keys, authored_menu};
 use crate::author::whole_space::own_help;
@@ -235,7 +236,7 @@ fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored,
 
 /// Outside the convex hull: marks the nearest point of the hull that plays instead, or the distance of extrapolation.
 fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
-    let wanted = panel.session.fitted(panel.session.path_point().unwrap_or(panel.inspected().at));
+    let wanted = played_point(panel);
     let pos = axes.ui_from_space(wanted);
     let on = axes.ui_from_space(authored.location.at);
     let painter = ui.painter();
@@ -257,7 +258,7 @@ fn outside_ui(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &T
         painter.rect_filled(area.expand(2.0), 3.0, t.background.gamma_multiply(0.9));
         painter.galley(area.min, words, t.accent);
     }
-    if authored.location.clamped {
+    if moved_axis(panel, authored).is_some() {
         painter.extend(Shape::dashed_line(&[pos, on], Stroke::new(1.5, t.warning), 5.0, 4.0));
         painter.circle_filled(on, 4.0, t.warning);
     }

@@ -37,6 +37,21 @@ pub(super) struct DrawnSites {
     pub(super) covered: Vec<Rect>,
 }
 
+/// A texture with a position, and what decides how it is drawn.
+#[derive(Clone, Copy, Debug)]
+struct Site {
+    texture: usize,
+    at: SpacePoint,
+    /// Rank among the contributing textures; `None` for others.
+    rank: Option<usize>,
+    /// Nearness to the slice that the canvas shows; 1 in a space without a slice.
+    nearness: f32,
+    /// Whether it takes no part in the authored texture.
+    is_left_out: bool,
+    /// Whether the field passes through it.
+    is_pinned: bool,
+}
+
 /// Draws the textures; a click plays one alone. Far from the slice that the canvas shows, they are small and faint. Texture names
 /// avoid the axis labels in `words` and the authored points that are not selected.
 pub(super) fn sites_ui(
@@ -49,51 +64,47 @@ pub(super) fn sites_ui(
     t: &Tokens,
 ) -> DrawnSites {
     let (mut commands, mut under_pointer) = (Vec::new(), None);
-    let sites: Vec<(usize, SpacePoint)> = panel.session.placed().collect();
-    let left_out = panel.session.left_out(&panel.inspected().blend);
+    let sites = placed_sites(panel);
     let with_pictures = sites.len() <= MAX_PICTURES;
     let radius = if with_pictures { site_radius(axes) } else { 3.0 };
-    let rank = |texture: usize| panel.session.parent_rank(texture);
-    let slice = Slice::of(panel);
-    let nearness = |at: &SpacePoint| slice.nearness(*at);
     let mut pointed = None;
     let has_open_menu = Popup::is_any_open(ui.ctx());
-    for (texture, at) in &drawing_order(&sites, rank, nearness) {
-        let pos = axes.ui_from_space(*at);
-        let entry = &panel.session.textures()[*texture];
-        let is_left_out = left_out.contains(texture);
-        let look = Look::of(if is_left_out { LEFT_OUT * radius } else { radius }, nearness(at));
+    for site in &drawing_order(&sites) {
+        let Site { texture, at, is_left_out, .. } = *site;
+        let pos = axes.ui_from_space(at);
+        let entry = &panel.session.textures()[texture];
+        let look = Look::of(if is_left_out { LEFT_OUT * radius } else { radius }, site.nearness);
         let radius = look.radius;
         let area = Rect::from_center_size(pos, vec2(2.0 * radius, 2.0 * radius));
         let response = ui.interact(area, ui.scope_id().with(("site", texture)), Sense::click());
         response.widget_info(|| WidgetInfo::labeled(Role::Button, true, strings::play_texture(&entry.name)));
-        if let Some(edit) = clicked(&response, panel, *texture) {
-            commands.extend(if tool.is_on { added(panel, *at) } else { Some(Command::Edit(edit)) });
+        if let Some(edit) = clicked(&response, panel, texture) {
+            commands.extend(if tool.is_on { added(panel, at) } else { Some(Command::Edit(edit)) });
         }
         if is_left_out {
             left_out_site(ui, pos, look, &response, t);
         } else {
-            site(ui, panel, *texture, pos, look, &response, t);
+            site_ui(ui, panel, site, pos, look, &response, t);
         }
         if response.hovered() {
-            under_pointer = Some(*texture);
+            under_pointer = Some(texture);
         }
         if response.hovered() || response.has_focus() {
-            pointed = Some(*texture);
+            pointed = Some(texture);
         }
         // With a thousand textures, tooltips and menus are built only where they can be needed.
         if response.hovered() || response.has_focus() || has_open_menu {
-            context_menu(&response, |ui| commands.extend(texture_menu(ui, panel, *texture)));
-            response.on_hover_ui(|ui| site_hover_ui(ui, panel, *texture, *at));
+            context_menu(&response, |ui| commands.extend(texture_menu(ui, panel, texture)));
+            response.on_hover_ui(|ui| site_hover_ui(ui, panel, texture, at));
         }
     }
     let named: Vec<(usize, Pos2)> = sites
         .iter()
-        .filter(|(texture, at)| {
-            let is_shown = with_pictures && !left_out.contains(texture) && is_named(nearness(at));
-            is_shown || rank(*texture).is_some() || pointed == Some(*texture)
+        .filter(|site| {
+            let is_shown = with_pictures && !site.is_left_out && is_named(site.nearness);
+            is_shown || site.rank.is_some() || pointed == Some(site.texture)
         })
-        .map(|(texture, at)| (*texture, axes.ui_from_space(*at)))
+        .map(|site| (site.texture, axes.ui_from_space(site.at)))
         .collect();
     let points = point_areas(axes, panel);
     let point = points.get(panel.project.selected).copied().unwrap_or(Rect::NOTHING);
@@ -102,26 +113,37 @@ pub(super) fn sites_ui(
     let around = Around { words: &words, point, on_map };
     let mut covered = site_labels(ui, panel, &named, radius, &around, pointed, t);
     covered.extend(words);
-    let disc = |(_, at): &(usize, SpacePoint)| {
-        let side = 2.0 * Look::of(radius, nearness(at)).radius;
-        Rect::from_center_size(axes.ui_from_space(*at), vec2(side, side))
+    let disc = |site: &Site| {
+        let side = 2.0 * Look::of(radius, site.nearness).radius;
+        Rect::from_center_size(axes.ui_from_space(site.at), vec2(side, side))
     };
     covered.extend(sites.iter().map(disc));
     DrawnSites { commands, pointed: under_pointer, covered }
 }
 
+/// Textures with a position, in the order of the list.
+fn placed_sites(panel: &Panel<'_>) -> Vec<Site> {
+    let blend = panel.session.blend_in_space(&panel.inspected().blend);
+    let left_out = panel.session.left_out(&blend);
+    let slice = panel.session.is_sliced().then(|| Slice::of(panel));
+    let site = |(texture, at): (usize, SpacePoint)| Site {
+        texture,
+        at,
+        rank: panel.session.parent_rank(texture),
+        nearness: slice.map_or(1.0, |slice| slice.nearness(at)),
+        is_left_out: left_out.contains(&texture),
+        is_pinned: blend.is_locked(&panel.session.textures()[texture].id),
+    };
+    panel.session.placed().map(site).collect()
+}
+
 /// Textures in the order in which they are drawn: contributing ones last, on top of the others, and otherwise those that are far
 /// from the slice first.
-fn drawing_order(
-    sites: &[(usize, SpacePoint)],
-    rank: impl Fn(usize) -> Option<usize>,
-    nearness: impl Fn(&SpacePoint) -> f32,
-) -> Vec<(usize, SpacePoint)> {
-    let contributes = |texture: usize| rank(texture).is_some();
+fn drawing_order(sites: &[Site]) -> Vec<Site> {
     let mut sites = sites.to_vec();
-    sites.sort_by(|(a, at_a), (b, at_b)| {
-        let near = || nearness(at_a).total_cmp(&nearness(at_b));
-        contributes(*a).cmp(&contributes(*b)).then_with(near)
+    sites.sort_by(|a, b| {
+        let near = || a.nearness.total_cmp(&b.nearness);
+        a.rank.is_some().cmp(&b.rank.is_some()).then_with(near)
     });
     sites
 }
@@ -183,11 +205,11 @@ fn left_out_site(ui: &Ui, pos: Pos2, look: Look, response: &Response, t: &Tokens
     ui.painter().circle_stroke(pos, look.radius, Stroke::new(1.5, color));
 }
 
-fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, look: Look, response: &Response, t: &Tokens) {
+/// Draws a texture that takes part in the authored texture, or can do so.
+fn site_ui(ui: &Ui, panel: &Panel<'_>, site: &Site, pos: Pos2, look: Look, response: &Response, t: &Tokens) {
     let painter = ui.painter();
-    let rank = panel.session.parent_rank(texture);
     let Look { radius, opacity, has_picture } = look;
-    let disc = if has_picture { picture_disc(panel, texture, pos, radius) } else { None };
+    let disc = if has_picture { picture_disc(panel, site.texture, pos, radius) } else { None };
     match disc {
         Some(mut disc) => {
             disc.fill = disc.fill.gamma_multiply(opacity);
@@ -198,7 +220,7 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, look: Look, respo
             painter.circle_filled(pos, radius, t.text_weak.gamma_multiply(opacity));
         }
     }
-    let ring = match rank {
+    let ring = match site.rank {
         Some(rank) => Some(Stroke::new(3.0, t.parents[rank.min(2)])),
         None if response.hovered() || response.has_focus() => Some(Stroke::new(2.0, t.text)),
         None => has_picture.then(|| Stroke::new(1.0, t.text_weak.gamma_multiply(0.8 * opacity))),
@@ -206,10 +228,35 @@ fn site(ui: &Ui, panel: &Panel<'_>, texture: usize, pos: Pos2, look: Look, respo
     if let Some(ring) = ring {
         painter.circle_stroke(pos, radius, ring);
     }
-    let blend = panel.session.blend_in_space(&panel.inspected().blend);
-    if blend.is_locked(&panel.session.textures()[texture].id) {
+    if site.is_pinned {
         let corner = pos + Vec2::angled(-std::f32::consts::FRAC_PI_4) * (radius + 2.0);
         painter.circle_filled(corner, 8.0, t.background);
         lock_mark(painter, corner, true, t.text);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Site, drawing_order};
+    use shagreen_core::space::SpacePoint;
+
+    #[test]
+    fn contributing_and_near_textures_are_drawn_over_the_others() {
+        let site = |(texture, (rank, nearness)): (usize, (Option<usize>, f32))| Site {
+            texture,
+            at: SpacePoint::plane(50.0, 50.0),
+            rank,
+            nearness,
+            is_left_out: false,
+            is_pinned: false,
+        };
+        let order = |sites: &[(Option<usize>, f32)]| -> Vec<usize> {
+            let sites: Vec<Site> = sites.iter().copied().enumerate().map(site).collect();
+            drawing_order(&sites).into_iter().map(|site| site.texture).collect()
+        };
+        let sliced = [(Some(0), 0.3), (None, 0.9), (None, 0.2), (Some(1), 0.1), (None, 0.5)];
+        assert_eq!(order(&sliced), [2, 4, 1, 3, 0]);
+        // Without a slice, the order of the list remains.
+        assert_eq!(order(&[(None, 1.0), (Some(0), 1.0), (None, 1.0), (Some(1), 1.0)]), [0, 2, 1, 3]);
     }
 }

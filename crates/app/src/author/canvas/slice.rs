@@ -1,11 +1,13 @@
 //! Slice that the canvas shows of a space with more axes: textures fade and shrink with their distance from it.
 
-use egui::{Align2, FontId, Pos2, Rect, Role, Sense, Ui, WidgetInfo};
+use egui::{Align2, FontId, Pos2, Rect, Role, Sense, Ui, WidgetInfo, pos2};
+use shagreen_core::space::heat_map::Quantity;
 use shagreen_core::space::{MOST_AXES, SpacePoint};
 
+use super::map::ShownMap;
 use crate::look::theme::Tokens;
 use crate::panel::Panel;
-use crate::strings::axes as strings;
+use crate::strings::{axes as strings, map as words};
 
 /// Distance from the slice at which a texture has about 60 % of the difference in size and opacity between one on the slice and
 /// one far away, relative to the spread of the textures on the further axes: with more axes, all textures are farther away.
@@ -28,10 +30,10 @@ pub(super) struct Slice {
 }
 
 impl Slice {
-    /// Slice through the point that plays: that of the texture that the inspector shows, or of the path.
+    /// Slice that the canvas shows ([`Panel::slice_point`]).
     pub(super) fn of(panel: &Panel<'_>) -> Self {
-        let at = panel.session.path_point().unwrap_or(panel.inspected().at);
-        Self::through(panel.session.fitted(at), &panel.session.placed().map(|(_, at)| at).collect::<Vec<_>>())
+        let sites: Vec<SpacePoint> = panel.session.placed().map(|(_, at)| at).collect();
+        Self::through(panel.slice_point(), &sites)
     }
 
     /// Slice through a point between textures at these positions.
@@ -73,17 +75,33 @@ pub(super) fn is_named(nearness: f32) -> bool {
     nearness > LEAST_NAMED
 }
 
-/// Draws the legend of a space with more axes than the canvas, with its upper right corner at `corner`; returns its rectangle.
-pub(super) fn legend_ui(ui: &Ui, corner: Pos2, panel: &Panel<'_>, t: &Tokens) -> Option<Rect> {
+/// Lines of the legend of a space with more axes than the canvas; none in other spaces. The convex hull is not drawn in such a
+/// space, so a line says which values a map has outside it.
+pub(super) fn legend(panel: &Panel<'_>, map: Option<&ShownMap>) -> Vec<String> {
     if !panel.session.is_sliced() {
-        return None;
+        return Vec::new();
     }
-    let words = strings::slice(panel.session.n_axes());
-    let font = FontId::proportional(SIZE);
-    let area = ui.painter().text(corner, Align2::RIGHT_TOP, &words, font, t.text_weak);
+    let mut lines = vec![strings::slice(panel.session.n_axes())];
+    if map.is_some_and(|map| map.quantity != Quantity::Distance) {
+        lines.push(words::outside(panel.project.texture().blend.outside).to_owned());
+    }
+    lines
+}
+
+/// Draws the lines of the legend with their upper right corner at `corner`; returns their rectangle.
+pub(super) fn legend_ui(ui: &Ui, corner: Pos2, lines: &[String], t: &Tokens) -> Option<Rect> {
+    let mut area: Option<Rect> = None;
+    for line in lines {
+        let corner = pos2(corner.x, area.map_or(corner.y, |above| above.bottom()));
+        let font = FontId::proportional(SIZE);
+        let line = ui.painter().text(corner, Align2::RIGHT_TOP, line, font, t.text_weak);
+        area = Some(area.map_or(line, |above| above.union(line)));
+    }
+    let area = area?;
     let response = ui.interact(area, ui.scope_id().with("slice of the space"), Sense::hover());
-    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &words));
-    response.on_hover_text(strings::SLICE_HELP);
+    response.widget_info(|| WidgetInfo::labeled(Role::Label, true, lines.join(". ")));
+    let help = if lines.len() > 1 { words::OUTSIDE_HELP } else { "" };
+    response.on_hover_text(format!("{}{help}", strings::SLICE_HELP));
     Some(area)
 }
 

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use egui::{Align, Button, Color32, FontId, Label, Layout, Rect, RichText, Ui, UiBuilder, pos2, vec2};
+use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::Authored;
 use shagreen_core::texture::blend::Mode;
 
@@ -27,14 +28,14 @@ const SIZE: f32 = 12.5;
 const NEAR_AN_EDGE: f64 = 0.05;
 
 /// Draws the strip at the lower edge of the canvas `outer`, between the words of the x axis, which are the first two of
-/// `axis_words`. With `asks_for_path`, it says how a path is drawn; with `is_narrow` and nothing else to say, it has the legend of
-/// a slice. Returns the requested command.
+/// `axis_words`. With `asks_for_path`, it says how a path is drawn; with nothing else to say, it has the lines of a `legend`. Returns
+/// the requested command.
 pub(super) fn foot_ui(
     ui: &mut Ui,
     outer: Rect,
     axis_words: &[Rect],
     panel: &Panel<'_>,
-    [asks_for_path, is_narrow]: [bool; 2],
+    (asks_for_path, legend): (bool, &[String]),
     t: &Tokens,
 ) -> Option<Command> {
     let [low, high, ..] = axis_words[..] else { return None };
@@ -52,8 +53,8 @@ pub(super) fn foot_ui(
         return solo_ui(ui, row, panel, texture, t);
     }
     let asked = asks_for_path.then(|| (strings::path::DRAW_ONE.to_owned(), t.accent));
-    let (text, color) =
-        asked.or_else(|| message(panel, is_path, t)).or_else(|| legend(panel, is_narrow, t))?;
+    let legend = (!legend.is_empty()).then(|| (legend.join(". "), t.text_weak));
+    let (text, color) = asked.or_else(|| message(panel, is_path, t)).or(legend)?;
     let mut job = egui::text::LayoutJob::simple(text, FontId::proportional(SIZE), color, row.width());
     job.halign = Align::Center;
     let galley = ui.painter().layout_job(job);
@@ -92,31 +93,50 @@ fn solo_ui(ui: &mut Ui, row: Rect, panel: &Panel<'_>, texture: usize, t: &Tokens
     asked.map(Command::Edit)
 }
 
-/// Legend of a slice, if the canvas is too narrow for it elsewhere.
-fn legend(panel: &Panel<'_>, is_narrow: bool, t: &Tokens) -> Option<(String, Color32)> {
-    let is_shown = is_narrow && panel.session.is_sliced();
-    is_shown.then(|| (strings::axes::slice(panel.session.n_axes()), t.text_weak))
-}
-
 fn message(panel: &Panel<'_>, is_path: bool, t: &Tokens) -> Option<(String, Color32)> {
     let authored = panel.session.authored()?;
     let says = |text: &str, color: Color32| Some((text.to_owned(), color));
+    let moved = moved_axis(panel, authored);
     if is_path && panel.session.touch().contact.force_n <= 0.0 {
         says(strings::path::WAITS, t.accent)
     } else if authored.mode.makes_a_model() && authored.model.is_none() && !panel.session.is_preparing() {
         says(strings::NO_TEXTURE_HERE, t.error)
-    } else if authored.is_extrapolated && authored.location.clamped {
+    } else if authored.is_extrapolated && moved.is_some() {
         Some((strings::extrapolated_to(authored.location.at), t.warning))
     } else if authored.is_extrapolated {
         says(strings::EXTRAPOLATED_HERE, t.warning)
-    } else if authored.location.clamped {
-        says(strings::CLAMPED, t.warning)
+    } else if let Some(axis) = moved {
+        Some((outside(panel, authored.location.at, axis), t.warning))
     } else if authored.mode != Mode::Paper {
         None
     } else if is_near_an_edge(authored) {
         says(strings::JUMPS_HERE, t.warning)
     } else {
         says(strings::JUMPS, t.text_weak)
+    }
+}
+
+/// Point that plays: that of the texture that the inspector shows, or of the path.
+pub(super) fn played_point(panel: &Panel<'_>) -> SpacePoint {
+    panel.session.fitted(panel.session.path_point().unwrap_or(panel.inspected().at))
+}
+
+/// Axis on which the point that plays differs most from the one that was authored, because the latter lies outside the convex hull;
+/// `None` inside, and if the two look the same.
+pub(super) fn moved_axis(panel: &Panel<'_>, authored: &Authored) -> Option<usize> {
+    if authored.location.clamped {
+        played_point(panel).most_different_axis(authored.location.at)
+    } else {
+        None
+    }
+}
+
+/// Says that the nearest point of the hull plays. Where the canvas does not show the hull, it says which coordinate differs most.
+fn outside(panel: &Panel<'_>, used: SpacePoint, axis: usize) -> String {
+    let values = || Some((panel.session.axes().get(axis)?, used.get(axis)?, played_point(panel).get(axis)?));
+    match values().filter(|_| panel.session.is_sliced()) {
+        Some((name, used, wanted)) => strings::axes::nearest(name, used, wanted),
+        None => strings::CLAMPED.to_owned(),
     }
 }
 

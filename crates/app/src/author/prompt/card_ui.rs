@@ -11,7 +11,7 @@ use crate::command::prompt::PromptCommand;
 use crate::look::icons::close_button;
 use crate::look::theme::{GAP, RADIUS, tokens};
 use crate::panel::Panel;
-use crate::strings::{self, axes, prompt as words};
+use crate::strings::{axes, prompt as words};
 
 /// Height of the picture and its margin, in points: the least height of the card.
 const HEIGHT: f32 = 58.0;
@@ -145,7 +145,7 @@ fn position_ui(ui: &mut Ui, panel: &Panel<'_>, guess: &PositionEstimate) {
             None => told.push(words::along(ends, estimate.mean, estimate.deviation)),
         }
     }
-    let help: Vec<String> = poles.iter().map(strings::axis_help).collect();
+    let help: Vec<String> = names.iter().zip(poles).map(|(name, ends)| axes::help(name, ends)).collect();
     let position = Label::new(RichText::new(told.join(" · ")).strong()).selectable(false);
     let is_long = panel.session.is_sliced();
     let position = if is_long { position.wrap() } else { position.truncate() };

@@ -8,6 +8,8 @@ use shagreen_core::surfaces::generated::{Witness, agree};
 use shagreen_core::surfaces::prompt::{OPEN, PromptInterpretation};
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_formats::picture::Picture;
+use shagreen_formats::project::plain_axis_name;
+use shagreen_studio::axes::axis_poles;
 use shagreen_studio::felt::GeneratedSurface;
 use shagreen_studio::seen_materials::SeenMaterial;
 
@@ -28,7 +30,7 @@ pub struct PositionEstimate {
     pub surface: Option<GeneratedSurface>,
     /// Name of the texture.
     pub name: String,
-    /// Names of the axes of the space, made from the words at both ends of each.
+    /// Names of the axes of the space, as in the project: words at their ends are not unique.
     pub names: Vec<String>,
     /// Estimates along these axes (0 to 100), with standard deviations.
     pub axes: Vec<Estimate>,
@@ -157,7 +159,7 @@ impl MaterialEstimate {
     /// A material with the estimates of its lexicon entry along these axes. An axis without an estimate is [`OPEN`].
     pub(super) fn new(seen: &SeenMaterial, axes: &[String]) -> Self {
         let along = |name: &String| {
-            let index = ATTRIBUTES.iter().position(|attribute| attribute == name);
+            let index = attribute_of(name);
             let hint = index.and_then(|index| seen.entry.as_ref()?.hints[index]);
             hint.unwrap_or(OPEN)
         };
@@ -169,8 +171,13 @@ impl MaterialEstimate {
     }
 }
 
-/// Returns the estimates along the `axes`, combined from words and picture, and the names of axes on which both
-/// disagree.
+/// Index of the attribute of which words and pictures say something on the axis with this name, among [`ATTRIBUTES`].
+fn attribute_of(axis: &str) -> Option<usize> {
+    let name = axis_poles(axis).join("-");
+    ATTRIBUTES.iter().position(|attribute| *attribute == name)
+}
+
+/// Returns the estimates along the `axes`, combined from words and picture, and the plain names of axes on which both disagree.
 /// A picture yields estimates for the first two of [`ATTRIBUTES`] only. An axis without an estimate is [`OPEN`].
 pub(super) fn on_axes<'a>(
     axes: &'a [String],
@@ -180,14 +187,14 @@ pub(super) fn on_axes<'a>(
 ) -> (Vec<Estimate>, Vec<&'a str>) {
     let mut disputed = Vec::new();
     let mut estimate = |axis: &'a String| {
-        let index = ATTRIBUTES.iter().position(|name| name == axis);
+        let index = attribute_of(axis);
         let said = index.and_then(|index| words.map(|words| words.attributes[index]));
         let seen = index.and_then(|index| picture.get(index).copied());
         match (said, seen) {
             (Some(said), Some(seen)) => {
                 let agreed = agree(said, seen, witness);
                 if agreed.differ {
-                    disputed.push(axis.as_str());
+                    disputed.push(plain_axis_name(axis));
                 }
                 agreed.estimate
             }
@@ -221,6 +228,10 @@ mod tests {
         let usual = axes(["rough-smooth", "hard-soft"]);
         let (both, disputed) = on_axes(&usual, Some(&words), &picture, Witness::OnItsOwn);
         assert_eq!(disputed, ["rough-smooth"]);
+        // So do an attribute of the same name, and the same poles in another spelling.
+        let attribute = axes(["attribute:rough-smooth", "hard - soft"]);
+        let found = on_axes(&attribute, Some(&words), &picture, Witness::OnItsOwn);
+        assert_eq!(found, (both.clone(), vec!["rough-smooth"]));
         assert!(both[1].mean < 25.0 && both[0].deviation > 2.0);
         let other = axes(["warm-cold", "flat-bumpy"]);
         let (open, disputed) = on_axes(&other, Some(&words), &picture, Witness::OnItsOwn);

@@ -1,12 +1,16 @@
 //! Spaces with more axes than the canvas.
 
+use std::sync::Arc;
+
 use super::{follow_until_ready, set_axes, starter};
 use crate::session::Session;
 use crate::state::edit::{Edit, edited};
-use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::Outside;
+use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::blend::Mode;
+use shagreen_formats::library::TextureEntry;
 use shagreen_formats::project::Project;
+use shagreen_formats::starter::starter_library;
 use shagreen_studio::project::new_project;
 
 const AXES: [&str; 3] = ["rough-smooth", "hard-soft", "centroid"];
@@ -37,6 +41,29 @@ fn every_mode_is_the_field_and_the_chosen_one_comes_back() {
     assert_eq!(session.blending(&beyond.texture().blend).outside, Outside::Extrapolated);
     session.follow(&paper, None, &egui::Context::default());
     assert!(!session.is_sliced() && session.authored().unwrap().mode == Mode::Paper);
+}
+
+/// Also after the coordinates of a texture have changed, and nothing else.
+#[test]
+fn own_textures_have_a_position_on_every_axis() {
+    let (mut session, project) = three_axes(&new_project());
+    let entry =
+        TextureEntry { id: "own".to_owned(), place: None, ..starter_library().unwrap().textures[3].clone() };
+    let join = Edit::JoinSimulated { key: 1, entry: Arc::new(entry), earlier: None };
+    let joined = edited(&edited(&project, join), Edit::Solo(None));
+    follow_until_ready(&mut session, &joined);
+    let own = session.index_of("own").unwrap();
+    assert_eq!((session.position(own), session.is_own(own)), (Some(joined.texture().at), true));
+    assert_eq!(session.place_source(own), Some(LabelSource::Estimated));
+    let parents = session.parents();
+    assert!(parents.len() == 1 && parents[0].0 == own && (parents[0].1 - 1.0).abs() < 1e-9, "{parents:?}");
+    let mut moved = joined.clone();
+    moved.coordinates.set("own", "hard-soft", 1.0);
+    session.follow(&moved, None, &egui::Context::default());
+    assert_eq!(session.position(own), Some(joined.texture().at.with(1, 1.0)));
+    moved.coordinates.remove("own");
+    session.follow(&moved, None, &egui::Context::default());
+    assert_eq!(session.position(own), None);
 }
 
 #[test]

@@ -3,12 +3,10 @@
 use std::sync::Arc;
 
 use egui::{Button, Grid, Label, ProgressBar, RichText, Ui};
-use shagreen_core::space::MOST_AXES;
-use shagreen_formats::axes_report::SIGNAL_AXES_NOTE;
 use shagreen_formats::library::Library;
 
+use super::Change;
 use super::evaluation::{Evaluation, Outcome, Step};
-use super::{Change, is_chosen};
 use crate::look::theme::{GAP, tokens};
 use crate::strings::{axes as strings, sentence};
 
@@ -43,7 +41,7 @@ pub(super) fn evaluate_ui(
 /// Draws the result of an evaluation, or why it failed; returns the requested change.
 pub(super) fn outcome_ui(
     ui: &mut Ui,
-    outcome: &Result<Outcome, String>,
+    outcome: &Result<Arc<Outcome>, String>,
     chosen: &[String],
 ) -> Option<Change> {
     let t = tokens(ui.ctx());
@@ -57,6 +55,7 @@ pub(super) fn outcome_ui(
             return None;
         }
     };
+    let n_added = outcome.n_added(chosen);
     Grid::new("evaluated axes").num_columns(6).spacing([2.0 * GAP, ROW_GAP]).show(ui, |ui| {
         for (name, help) in [
             (strings::ADDED, strings::EVALUATE_HELP),
@@ -68,27 +67,40 @@ pub(super) fn outcome_ui(
             ui.add(Label::new(heading).selectable(false)).on_hover_text(help);
         }
         ui.end_row();
-        for step in &outcome.steps {
-            change = step_ui(ui, step, chosen).or(change.take());
+        for (row, step) in outcome.steps.iter().enumerate() {
+            let label =
+                if row == 0 { strings::first_axes(&outcome.first) } else { strings::added(&step.name) };
+            step_ui(ui, &label, step);
+            // Each row has the axes of all rows above it.
+            if let Some(n_added) = n_added.filter(|n_added| row > *n_added)
+                && add_ui(ui, &step.name)
+            {
+                let added = outcome.steps[n_added + 1..=row].iter().map(|step| step.name.clone());
+                change = Some(Change::Choose(chosen.iter().cloned().chain(added).collect()));
+            }
+            ui.end_row();
         }
     });
+    if n_added.is_none() {
+        let note = RichText::new(strings::of_another_choice(&outcome.first)).color(t.warning);
+        ui.add(Label::new(note).wrap());
+    }
     let mut notes = vec![strings::evaluated(outcome.n_textures)];
     notes.extend(outcome.nothing.map(str::to_owned));
     if !outcome.left_out.is_empty() {
         notes.push(strings::left_out(&outcome.left_out.iter().map(String::as_str).collect::<Vec<_>>()));
     }
-    notes.push(SIGNAL_AXES_NOTE.to_owned());
+    notes.extend(outcome.signal_note.map(str::to_owned));
     for note in notes {
         ui.add(Label::new(RichText::new(note).small().color(t.text_weak)).wrap());
     }
     change
 }
 
-/// Draws the row of an evaluated axis.
-fn step_ui(ui: &mut Ui, step: &Step, chosen: &[String]) -> Option<Change> {
+/// Draws the figures of a step.
+fn step_ui(ui: &mut Ui, label: &str, step: &Step) {
     let t = tokens(ui.ctx());
-    let mut change = None;
-    ui.add(Label::new(strings::name(&step.name)).selectable(false));
+    ui.add(Label::new(label).selectable(false));
     for figure in [
         strings::errors(step.before_db, step.after_db),
         strings::gain(step.gain_db),
@@ -102,13 +114,10 @@ fn step_ui(ui: &mut Ui, step: &Step, chosen: &[String]) -> Option<Change> {
         None => ("", t.text_weak),
     };
     ui.add(Label::new(RichText::new(verdict).color(color)).selectable(false));
-    if !is_chosen(chosen, &step.name) {
-        let button = ui.add_enabled(chosen.len() < MOST_AXES, Button::new(strings::ADD).small());
-        let button = button.accessible_name(strings::add(&step.name));
-        if button.on_disabled_hover_text(strings::most()).clicked() {
-            change = Some(Change::Add(step.name.clone()));
-        }
-    }
-    ui.end_row();
-    change
+}
+
+/// Draws the button that adds an axis and those of the rows above; returns whether it was clicked.
+fn add_ui(ui: &mut Ui, axis: &str) -> bool {
+    let button = ui.add(Button::new(strings::ADD).small()).accessible_name(strings::add(axis));
+    button.on_hover_text(strings::ADD_HELP).clicked()
 }

@@ -1,4 +1,5 @@
-//! List of the axes: the chosen ones in their order, then the others.
+//! List of the axes, with the places of the chosen ones. Its order stays while the sheet is open, so that the next click does not hit
+//! another axis.
 
 use egui::{Checkbox, Grid, Label, RichText, Ui};
 use shagreen_core::space::MOST_AXES;
@@ -14,13 +15,10 @@ const ROW_GAP: f32 = 2.0;
 /// Draws the list of the axes of `n` textures; returns the requested change.
 pub(super) fn list_ui(ui: &mut Ui, offer: &Offer, chosen: &[String], n: usize) -> Option<Change> {
     let mut change = None;
-    let of_name = |name: &String| offer.axes.iter().find(|axis| axis.name == *name);
     Grid::new("axes").num_columns(4).spacing([2.0 * GAP, ROW_GAP]).show(ui, |ui| {
-        for (place, axis) in chosen.iter().enumerate().filter_map(|(at, name)| Some((at, of_name(name)?))) {
-            change = row_ui(ui, axis, Some(place), chosen, n).or(change.take());
-        }
-        for axis in offer.axes.iter().filter(|axis| !is_chosen(chosen, &axis.name)) {
-            change = row_ui(ui, axis, None, chosen, n).or(change.take());
+        for axis in &offer.axes {
+            let place = chosen.iter().position(|name| *name == axis.name);
+            change = row_ui(ui, axis, place, chosen, n).or(change.take());
         }
     });
     change
@@ -33,6 +31,7 @@ fn row_ui(ui: &mut Ui, axis: &Offered, place: Option<usize>, chosen: &[String], 
     let mut is_on = place.is_some();
     let (can_switch, reason) = match place {
         Some(_) => (chosen.len() > 1, strings::NEEDS_ONE.to_owned()),
+        None if is_chosen(chosen, &axis.name) => (false, strings::SAME_NAME.to_owned()),
         None => (chosen.len() < MOST_AXES, strings::most()),
     };
     let tick = ui.add_enabled(can_switch, Checkbox::new(&mut is_on, strings::name(&axis.name)));

@@ -1,3 +1,5 @@
+mod other_axes;
+
 use std::collections::BTreeSet;
 use std::sync::Arc;
 

@@ -66,9 +66,20 @@ fn axes_are_chosen_ordered_and_limited() {
     open(&mut harness);
     let known = known_axes(window(&harness).session().library());
     assert!((4..=MOST_AXES).contains(&known.len()), "{known:?}");
+    // Rows stay where they are, so that the next click does not hit another axis.
+    let rows = |h: &Author| {
+        let top = |name: &str| h.get_by_role_and_label(Role::CheckBox, name).rect().top();
+        known.iter().map(|axis| (top(&axis.name) - top("rough-smooth")).round()).collect::<Vec<f32>>()
+    };
+    let before = rows(&harness);
+    assert!(before.windows(2).all(|pair| pair[0] < pair[1]), "{before:?}");
     for axis in &known[2..] {
         tick(&mut harness, &axis.name);
+        assert_eq!(rows(&harness), before, "{}", axis.name);
     }
+    tick(&mut harness, "hard-soft");
+    assert_eq!(rows(&harness), before);
+    tick(&mut harness, "hard-soft");
     assert!(says(&harness, &words::place(known.len() - 1)));
     click(&mut harness, words::CANCEL);
     assert_eq!(axes(&harness), ["rough-smooth", "hard-soft"], "nothing was chosen");
@@ -93,9 +104,9 @@ fn the_palette_swaps_the_axes_of_the_canvas() {
     let mut harness = sliced();
     let commands: Vec<&str> = shagreen_app::command::listed()
         .filter_map(|command| command.entry().map(|entry| entry.label))
-        .filter(|label| label.contains("axes"))
+        .filter(|label| label.to_lowercase().contains("axes"))
         .collect();
-    assert_eq!(commands, [words::COMMAND, words::SWAP]);
+    assert_eq!(commands, [words::BUTTON, words::SWAP]);
     let before = point(&harness);
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::P);
     harness.run_steps(3);
@@ -120,17 +131,37 @@ fn axes_are_evaluated_in_the_order_of_what_they_add() {
     wait(&mut harness, "the axes are evaluated", |h| h.query_by_label(words::STOP).is_none());
     harness.run_steps(3);
     assert!(says(&harness, words::RANK1) && says(&harness, "not rated by people"));
-    let added: Vec<String> = ["centroid", "speed exponent", "force exponent", "tap frequency"]
+    let first = ["rough-smooth", "hard-soft"].map(str::to_owned);
+    assert!(says(&harness, &words::first_axes(&first)), "the axes of the first row");
+    let mut rows: Vec<(f32, &str)> = ["centroid", "speed exponent", "force exponent", "tap frequency"]
         .into_iter()
-        .filter(|axis| harness.query_by_label(&words::add(axis)).is_some())
-        .map(str::to_owned)
+        .filter_map(|axis| Some((harness.query_by_label(&words::add(axis))?.rect().top(), axis)))
         .collect();
-    assert!(!added.is_empty());
-    harness.get_by_label(&words::add(&added[0])).scroll_to_me();
-    harness.run_steps(4);
-    click(&mut harness, &words::add(&added[0]));
-    assert!(harness.query_by_label(&words::add(&added[0])).is_none());
+    rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let added: Vec<&str> = rows.into_iter().map(|(_, axis)| axis).collect();
+    assert!(added.len() > 2 && added.iter().all(|axis| says(&harness, &words::added(axis))), "{added:?}");
+    // A row has the axes of the rows above it, too.
+    add(&mut harness, added[1]);
+    assert!(added[..2].iter().all(|axis| harness.query_by_label(&words::add(axis)).is_none()));
+    assert!(harness.query_by_label(&words::add(added[2])).is_some());
     click(&mut harness, words::USE);
     harness.run_steps(3);
-    assert_eq!(axes(&harness), ["rough-smooth", "hard-soft", added[0].as_str()]);
+    assert_eq!(axes(&harness), ["rough-smooth", "hard-soft", added[0], added[1]]);
+
+    // The result is there again, and still says what the next row adds.
+    open(&mut harness);
+    assert!(says(&harness, &words::first_axes(&first)) && says(&harness, words::RANK1));
+    assert!(!says(&harness, &words::of_another_choice(&first)));
+    assert!(harness.query_by_label(&words::add(added[1])).is_none());
+    assert!(harness.query_by_label(&words::add(added[2])).is_some());
+    // It says nothing about a choice without the first axes.
+    tick(&mut harness, "hard-soft");
+    assert!(says(&harness, &words::of_another_choice(&first)));
+    assert!(added.iter().all(|axis| harness.query_by_label(&words::add(axis)).is_none()));
+}
+
+fn add(harness: &mut Author, axis: &str) {
+    harness.get_by_label(&words::add(axis)).scroll_to_me();
+    harness.run_steps(4);
+    click(harness, &words::add(axis));
 }

@@ -11,7 +11,7 @@ use shagreen_formats::starter::simulated_library;
 use super::{point, use_axes};
 use crate::support::{Author, author_on, click, says, wait, wait_for_field, window, write_into};
 
-fn describe(harness: &mut Author, prompt: &str) {
+pub(super) fn describe(harness: &mut Author, prompt: &str) {
     let n = window(harness).project().authored.len();
     write_into(harness, words::FIELD, prompt);
     harness.key_press(Key::Enter);

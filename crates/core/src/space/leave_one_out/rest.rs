@@ -63,8 +63,14 @@ impl Placed {
     }
 }
 
-/// Whether a position is strictly inside the hull of a space.
+/// Whether a position is strictly inside the hull of a space. On one axis, it is if it lies strictly between the lowest and
+/// the highest position.
 pub(in crate::space) fn is_inside(space: &Space, at: SpacePoint) -> bool {
+    if space.n_axes() == 1 {
+        // All points between the textures lie on their outline, so that a distance from it says nothing.
+        let mut offsets = space.sites().iter().map(|(_, site)| site.x() - at.x());
+        return offsets.clone().any(|offset| offset < -ON_HULL) && offsets.any(|offset| offset > ON_HULL);
+    }
     space.locate(at).is_some_and(|location| !location.clamped) && space.hull_distance(at) > ON_HULL
 }
 

@@ -229,6 +229,27 @@ fn only_what_lies_strictly_between_is_left_out() {
     assert_eq!(run(&line, &all_modes()).unwrap_err(), LeaveOneOutError::NoneInside { n: 5 });
 }
 
+/// On one axis, the hull of the others is a part of the axis, and the textures at its ends are not left out.
+#[test]
+fn on_one_axis_all_but_the_ends_are_left_out() {
+    let on_line = |coordinates: &[f64]| -> Vec<(TextureModel, Option<SpacePoint>)> {
+        let places = coordinates.iter().map(|x| SpacePoint::of(&[*x]).unwrap());
+        places.map(|at| (truth(at, 0.0), Some(at))).collect()
+    };
+    let measured = run(&on_line(&[60.0, 0.0, 100.0, 20.0, 40.0, 80.0]), &all_modes()).unwrap();
+    let inside: Vec<usize> = measured.textures.iter().map(|left| left.texture).collect();
+    assert_eq!((inside.as_slice(), measured.on_hull.as_slice()), (&[0, 3, 4, 5][..], &[1, 2][..]));
+    let error_db = |method: &Method| {
+        measured.methods.iter().find(|summary| summary.method == *method).unwrap().error_db_mean
+    };
+    // The level is linear in the coordinate, so that only a copy of the nearest texture has a large error.
+    let (field, nearest) = (error_db(&Method::Blended(Mode::Field.into())), error_db(&Method::Nearest));
+    assert!(field < 0.3 * nearest, "{field} and {nearest} dB");
+    // Equal positions: neither lies between others.
+    let error = run(&on_line(&[0.0, 100.0, 0.0, 100.0]), &all_modes()).unwrap_err();
+    assert_eq!(error, LeaveOneOutError::NoneBetween { n: 4 });
+}
+
 #[test]
 fn nonsense_is_refused_and_a_caller_can_stop() {
     let world = world(3, 0.0);

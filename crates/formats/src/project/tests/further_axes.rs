@@ -11,7 +11,7 @@ use shagreen_core::space::{MOST_AXES, SpacePoint};
 use super::{BY, back, full, named, nothing};
 use crate::built_in::BuiltIn;
 use crate::placed_space::PlacedSpace;
-use crate::project::{Project, ProjectLibrary, read_project, write_project};
+use crate::project::{AuthoredTexture, Project, ProjectLibrary, read_project, write_project};
 
 /// Positions with three coordinates, and axes of all kinds.
 #[test]
@@ -27,6 +27,11 @@ fn projects_with_further_axes_are_read() {
     assert_eq!(path.points[1].coordinates(), [30.0, 40.5, 0.0]);
     assert_eq!(project.authored[1].at.coordinates(), [25.0]);
     assert_eq!(project.snapshots[0].at.coordinates(), [70.0, 30.0, 1.0, 2.0, 3.0, 4.0]);
+    let of_snapshot = ["rough-smooth", "hard-soft", "centroid", "a-b", "attribute:c-d", "tap frequency"];
+    assert_eq!(project.snapshots[0].axes, Some(named(&of_snapshot)));
+    assert_eq!(project.authored[0].axes, None);
+    let coordinate = |axis: &str| project.coordinates.get("made", axis);
+    assert_eq!(["warm-cold", "attribute:flat-bumpy"].map(coordinate), [Some(15.25), Some(60.0)]);
     let space = project.space.as_ref().unwrap();
     assert_eq!(space.axis_names(), ["warm-cold", "flat-bumpy", "rough-smooth", "hard-soft"]);
     assert_eq!(space.textures[0].place.at.coordinates(), [40.0, 60.0, 20.0, 80.5]);
@@ -37,6 +42,7 @@ fn projects_with_further_axes_are_read() {
     for part in ["version", "axes", "authored", "snapshots", "space"] {
         assert_eq!(written[part], before[part], "{part}");
     }
+    assert_eq!(written["joined"][0]["coordinates"], before["joined"][0]["coordinates"]);
 }
 
 #[test]
@@ -60,6 +66,51 @@ fn a_project_on_any_number_of_axes_goes_there_and_back() {
         assert_eq!(texture.get("hard_soft").is_some(), n_axes > 1);
         assert_eq!(texture["further"].as_array().map_or(0, Vec::len), n_axes.saturating_sub(2));
         assert_eq!(texture["path"]["points"][0].as_array().unwrap().len(), n_axes);
+    }
+}
+
+/// A library file that changed on disk gives the position of a texture another number of coordinates than its path has.
+#[test]
+fn a_path_is_written_with_the_coordinates_of_its_texture() {
+    for n_axes in [1, 2, 3, 6] {
+        let mut project = full();
+        let mut fitted = project.clone();
+        for texture in project.authored.iter_mut().chain(&mut project.snapshots) {
+            let texture = Arc::make_mut(texture);
+            texture.at = texture.at.on(n_axes).with(n_axes - 1, 7.0);
+        }
+        for (texture, mixed) in fitted.authored.iter_mut().zip(&project.authored) {
+            let texture = Arc::make_mut(texture);
+            texture.at = mixed.at;
+            texture.fit(n_axes);
+        }
+        let read = back(&project);
+        assert_eq!(read.authored, fitted.authored, "{n_axes} axes");
+        let wire: Value = serde_json::from_slice(&write_project(&project, Path::new("/"), BY)).unwrap();
+        assert_eq!(wire["version"], if n_axes == 2 { "1.2" } else { "1.3" });
+    }
+    // A path with one more point, which has the coordinates of the new space.
+    let mut project = full();
+    let texture = Arc::make_mut(&mut project.authored[1]);
+    texture.path.as_mut().unwrap().points.push(SpacePoint::of(&[1.0, 2.0, 3.0]).unwrap());
+    let points = back(&project).authored[1].path.clone().unwrap().points;
+    assert!(points.len() == 3 && points.iter().all(|point| point.n_axes() == 2), "{points:?}");
+}
+
+#[test]
+fn axes_of_a_snapshot_fit_its_coordinates() {
+    let mut project = Project::new(ProjectLibrary::BuiltIn(BuiltIn::Starter), "New texture");
+    let axes = named(&["centroid", "rough-smooth"]);
+    let snapshot = AuthoredTexture { axes: Some(axes), ..AuthoredTexture::new(1, "New texture") };
+    project.snapshots.push(Arc::new(snapshot));
+    assert_eq!(back(&project), project);
+    let wire: Value = serde_json::from_slice(&write_project(&project, Path::new("/"), BY)).unwrap();
+    assert_eq!(wire["version"], "1.3");
+    for wrong in [json!(["centroid"]), json!(["centroid", "Centroid"]), json!(["a", "b", "c"])] {
+        let mut wire = wire.clone();
+        wire["snapshots"][0]["axes"] = wrong;
+        let error = read_project(wire.to_string().as_bytes(), Path::new("/"), &nothing).unwrap_err();
+        assert!(error.to_string().contains("one different name for each of its coordinates (2)"), "{error}");
     }
 }
 

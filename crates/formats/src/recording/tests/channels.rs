@@ -79,6 +79,7 @@ fn what_render_wrote_comes_back_with_its_trace() {
         name: None,
         texture: None,
         at: None,
+        at_named: None,
         shape: None,
         clamped: false,
         extrapolated: false,
