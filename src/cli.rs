@@ -86,6 +86,7 @@ mod spatial_reconstruct;
 mod stroke;
 mod stroke_args;
 mod stroke_recordings;
+mod study;
 mod sweep_checks;
 mod target;
 mod terminal_line;
@@ -138,6 +139,9 @@ enum Command {
     /// positions from a table.
     #[command(subcommand)]
     Space(SpaceCommand),
+    /// Plans studies with people, simulates participants, and analyzes the answers. People answer in the window.
+    #[command(subcommand)]
+    Study(study::Command),
     /// Measures the errors of interpolation and codec on signals, without human participants.
     #[command(subcommand)]
     Evaluate(EvaluateCommand),
@@ -294,6 +298,7 @@ pub(crate) fn run(open_window: OpenWindow) -> ExitCode {
         Some(Command::Evaluate(EvaluateCommand::LeaveOneOut(args))) => evaluate::run(args),
         Some(Command::Evaluate(EvaluateCommand::Axes(args))) => evaluate_axes::run(args),
         Some(Command::Texture(TextureCommand::Path(args))) => texture_path::run(args),
+        Some(Command::Study(command)) => study::run(command),
         Some(Command::Devices(args)) => devices::run(args),
         Some(Command::Play(args)) => play::run(args),
         Some(Command::Latency(args)) => latency::run(args),

@@ -4,7 +4,6 @@ use anyhow::{Context as _, bail};
 use shagreen_core::space::authoring::{Blending, Outside, Weights};
 use shagreen_core::texture::blend::Mode;
 use shagreen_formats::library::Library;
-use shagreen_formats::project::BlendChoice;
 
 use crate::cli::output;
 use crate::cli::words::words;
@@ -58,23 +57,6 @@ impl BlendArgs {
         blending.check_in(library.axis_names().len())?;
         warn_of_hidden_locks(library, &blending.locked);
         Ok(blending)
-    }
-}
-
-/// Notes pins of an authored texture that have no effect, because a texture is not in the list or has no position in the space.
-pub(crate) fn note_lost_pins(library: &Library, blend: &BlendChoice) {
-    if !blend.can_lock() {
-        return;
-    }
-    for id in &blend.locked {
-        let reason = match library.index_of(id) {
-            None => "the project has no such texture".to_owned(),
-            Some(texture) if library.textures[texture].place.is_none() => {
-                format!("it has no position on the axes {}", library.axis_names().join(", "))
-            }
-            Some(_) => continue,
-        };
-        output::note(&format!("the pin of \"{id}\" has no effect: {reason}"));
     }
 }
 

@@ -12,7 +12,7 @@ use shagreen_studio::project::{find_authored, load_project, textures_by_id, text
 use shagreen_studio::sound::Sound;
 
 use crate::cli::axes_args::AxesArgs;
-use crate::cli::blending::{BlendArgs, note_lost_pins};
+use crate::cli::blending::BlendArgs;
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output::{self, Printed};
 use crate::cli::own_folder::permitted_libraries;
@@ -123,30 +123,15 @@ impl SoundArgs {
 
     /// Selects the texture that the arguments name.
     fn choose(&self, Textures { library, project, at }: &Textures) -> anyhow::Result<Sound> {
-        let (point, blending, own_shape) = match (&self.target.authored, project) {
-            (Some(name), Some(project)) => {
-                let authored = find_authored(project, name)?;
-                // The library of the project may have other axes than when the texture was authored.
-                let n_axes = library.axis_names().len();
-                let blend = authored.blend.in_space(n_axes);
-                if blend.mode != authored.blend.mode {
-                    output::note(&format!(
-                        "\"{name}\" has mode {}, which needs a space with one or two axes; it is interpolated in mode {}",
-                        authored.blend.mode.id(),
-                        blend.mode.id()
-                    ));
-                }
-                note_lost_pins(library, &blend);
-                let blending = blend.blending(|id| library.index_of(id));
-                (Some(authored.at.on(n_axes)), blending, authored.shape)
-            }
-            _ => (*at, self.blending.blending(library)?, Shape::default()),
-        };
-        let shape = self.shape.or(own_shape);
+        if let (Some(name), Some(project)) = (&self.target.authored, project) {
+            let authored = find_authored(project, name)?;
+            return Sound::of_authored(library, authored, &self.shape.or(authored.shape), &Printed);
+        }
+        let (blending, shape) = (self.blending.blending(library)?, self.shape.or(Shape::default()));
         if let Some(id) = &self.target.texture {
             return Sound::of_texture(library, id, blending.mode, &shape);
         }
-        let Some(point) = point else {
+        let Some(point) = *at else {
             bail!(output::Usage("no texture is selected; give --at POINT, --texture ID, or --project FILE with --authored NAME".to_owned()))
         };
         Sound::of_point(library, point, (&blending, &shape), &Printed)

@@ -7,7 +7,7 @@ use anyhow::bail;
 use directories::{BaseDirs, ProjectDirs};
 use serde_json::json;
 use shagreen_formats::project::{Project, ProjectLibrary};
-use shagreen_studio::open::{Opened, is_other_kind, open};
+use shagreen_studio::open::{Opened, is_other_kind, is_study_plan, open};
 use shagreen_studio::permitted_libraries::{OutsideLibrary, Permitted};
 use shagreen_studio::project::new_project;
 
@@ -21,13 +21,17 @@ pub(crate) type OpenWindow = fn(WindowRequest) -> anyhow::Result<FrameTimes>;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Project to open, a library (a file or a folder of files) to start a project with, or a recording, model, stroke or
-    /// photo to take. Default: a new project with the starter library.
+    /// Project to open, a library (a file or a folder of files) to start a project with, the plan of a study (.toml), or a
+    /// recording, model, stroke or photo to take. Default: a new project with the starter library.
     file: Option<PathBuf>,
     /// Output to play on, by id; `shagreen devices` lists them. Default: the output that was last selected in the
     /// window, otherwise the default output of the system.
     #[arg(long, value_name = "ID")]
     output: Option<String>,
+    /// Let a simulated participant with this seed take part in the study of the plan, in the window. An interrupted session
+    /// of a simulated participant goes on.
+    #[arg(long, value_name = "SEED", hide = true)]
+    simulate_participant: Option<u64>,
     /// Draw this many frames with the automatic stroke, print their times, and close.
     #[arg(long, value_name = "N", hide = true)]
     measure_frames: Option<usize>,
@@ -45,6 +49,8 @@ pub(crate) struct WindowRequest {
     pub(crate) output: Option<String>,
     /// Folders and files of the user.
     pub(crate) folders: UserFolders,
+    /// Seed of a simulated participant of the study to open.
+    pub(crate) simulation_seed: Option<u64>,
     /// Number of frames to measure before closing; `None` keeps the window open.
     pub(crate) measured_frames: Option<usize>,
     /// Start time of the program.
@@ -90,7 +96,11 @@ pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> any
         );
     }
     let named = args.file.as_deref();
-    let is_other = named.is_some_and(|file| is_other_kind(file) && file.is_file());
+    let is_plan = named.is_some_and(is_study_plan);
+    if args.simulate_participant.is_some() && !is_plan {
+        bail!("--simulate-participant needs the plan of a study; name its .toml file");
+    }
+    let is_other = named.is_some_and(|file| (is_plan || is_other_kind(file)) && file.is_file());
     let opened = if is_other { None } else { opened(named)? };
     // What is not opened here, the window takes.
     let take = named.filter(|_| opened.is_none()).map(std::path::absolute).transpose()?;
@@ -103,6 +113,7 @@ pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> any
         take,
         output: args.output.clone(),
         folders,
+        simulation_seed: args.simulate_participant,
         measured_frames: args.measure_frames,
         started,
     })?;

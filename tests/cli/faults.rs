@@ -121,7 +121,7 @@ struct Case {
     files: &'static [&'static str],
 }
 
-const CASES: [Case; 7] = [
+const CASES: [Case; 8] = [
     Case {
         arguments: "render --at 30,70 --speed 100 --force 1 --seconds 0.2 --seed {} -o a.wav",
         variants: ["1", "2"],
@@ -153,6 +153,11 @@ const CASES: [Case; 7] = [
         variants: ["1", "2"],
         files: &["a.acf"],
     },
+    Case {
+        arguments: "study run abx.toml --simulated 2 --seed {} --out .",
+        variants: ["1", "2"],
+        files: &["simulated-01.jsonl", "simulated-02.jsonl"],
+    },
 ];
 
 /// Contents of the files of a case after a run without faults.
@@ -167,8 +172,12 @@ fn command(case: &Case, variant: usize) -> String {
 /// A folder with the input of all commands.
 fn bench() -> Bench {
     let bench = Bench::new();
-    let said = bench.run("render --texture cork --speed 100 --force 1 --seconds 1 -o in.wav");
-    assert_eq!(said.code, 0, "{said:?}");
+    for input in
+        ["render --texture cork --speed 100 --force 1 --seconds 1 -o in.wav", "study new abx --out abx.toml"]
+    {
+        let said = bench.run(input);
+        assert_eq!(said.code, 0, "{said:?}");
+    }
     bench
 }
 

@@ -40,4 +40,5 @@ mod signals;
 mod space;
 mod space_ratings;
 mod starter;
+mod study;
 mod train_networks;

@@ -24,7 +24,7 @@ const ROOMS: [&str; 11] = [
 const ABOVE_PAGES: &str = "sheets";
 
 /// Layers of `app`, the lowest first; single files are layers too.
-const ROOMS_OF_APP: [&str; 15] = [
+const ROOMS_OF_APP: [&str; 16] = [
     "choices",
     "strings",
     "look",
@@ -38,6 +38,7 @@ const ROOMS_OF_APP: [&str; 15] = [
     "author",
     "build",
     "signals",
+    "studies",
     "sheets",
     "window",
 ];

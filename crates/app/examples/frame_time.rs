@@ -44,6 +44,7 @@ fn main() {
         take: None,
         output: OutputChoice::Id("null".to_owned()),
         keeping: StoragePaths::default(),
+        simulation_seed: None,
     };
     let window: Shared = Shared::default();
     let shared = Rc::clone(&window);

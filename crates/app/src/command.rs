@@ -8,6 +8,7 @@ pub mod relief;
 mod shortcuts;
 pub mod signals;
 pub mod stroke;
+pub mod studies;
 
 use std::path::PathBuf;
 
@@ -28,6 +29,7 @@ use shagreen_studio::export::WAV;
 
 use crate::command::signals::SignalsCommand;
 use crate::command::stroke::StrokeCommand;
+use crate::command::studies::StudiesCommand;
 use crate::state::blank_file::BlankFile;
 use crate::state::compare::{CompareCommand, Side};
 use crate::state::edit::Edit;
@@ -146,6 +148,8 @@ pub enum Command {
     Clipboard(ClipboardCommand),
     /// Command of the Signals workspace.
     Signals(SignalsCommand),
+    /// Command of the Studies workspace.
+    Studies(StudiesCommand),
     /// Command about prompts and photos.
     Prompt(PromptCommand),
     /// Command about the networks that predict attributes from photos.

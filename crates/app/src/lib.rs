@@ -33,6 +33,7 @@ pub mod sheets;
 pub mod signals;
 pub mod state;
 pub mod strings;
+pub mod studies;
 pub mod window;
 pub mod workspace;
 

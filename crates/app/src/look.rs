@@ -5,6 +5,7 @@
 pub mod axes;
 pub(crate) mod border;
 pub(crate) mod chart_ui;
+pub(crate) mod color_bar;
 pub(crate) mod drag;
 pub mod icon;
 pub(crate) mod icons;

@@ -13,6 +13,7 @@ mod height_maps_worker;
 mod interpolation;
 pub(crate) mod kept_path;
 mod loaded_textures;
+mod masking_output;
 mod messages;
 mod models_worker;
 mod open_library;
@@ -23,6 +24,7 @@ mod places;
 mod planes_worker;
 mod played_signal;
 mod player;
+mod presented_texture;
 mod signal;
 mod sound;
 mod spaces;
@@ -48,8 +50,11 @@ use shagreen_studio::report::Warnings;
 use crate::state::scope_buffer::ScopeBuffer;
 use crate::strings;
 
+pub use self::masking_output::MaskingOutput;
 pub use self::opening::OutputChoice;
 pub use self::pen::PenFacts;
+pub use self::played_signal::Presented;
+pub use self::presented_texture::PresentedTexture;
 
 use self::authored_state::AuthoredState;
 use self::hand_state::HandState;

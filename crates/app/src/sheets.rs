@@ -27,12 +27,13 @@ use egui::{Align2, Context, DroppedFileHandle, FontId, Id, LayerId, Order, Popup
 use shagreen_formats::picture::PHOTO_ENDINGS;
 use shagreen_formats::project::EXTENSION;
 use shagreen_studio::file::ending_of;
-use shagreen_studio::open::is_other_kind;
+use shagreen_studio::open::{is_other_kind, is_study_plan};
 
 use crate::author::texture_sheet::TextureSheet;
 use crate::command::prompt::PromptCommand;
 use crate::command::relief::{ReliefCommand, ReliefOf};
 use crate::command::stroke::StrokeCommand;
+use crate::command::studies::StudiesCommand;
 use crate::command::{Command, FileCommand};
 use crate::look::sheet_frame::is_left;
 use crate::look::theme::{RADIUS, tokens};
@@ -146,8 +147,9 @@ impl Sheet {
 
     /// Draws the sheet over the window, and the target of files that hover over it. Returns the requested commands.
     /// Dropped files are judgments in the Build workspace and signals in the Signals workspace. Elsewhere a stroke
-    /// recording is repeated, and a project is opened. A photo becomes the picture of a texture or, after a question, a
-    /// prompt or a relief; several photos are prompts. Other files are imported. An open import sheet reads all files.
+    /// recording is repeated. A project, and the plan of a study, are opened. A photo becomes the picture of a texture
+    /// or, after a question, a prompt or a relief; several photos are prompts. Other files are imported. An open import
+    /// sheet reads all files.
     pub(crate) fn show(
         &mut self,
         ctx: &Context,
@@ -217,6 +219,9 @@ impl Sheet {
         let sources = |files: Vec<DroppedFileHandle>| files.into_iter().map(Source::Dropped).collect();
         if let Some(project) = dropped.iter().find_map(is_project) {
             commands.push(Command::File(FileCommand::Open(project)));
+        } else if let Some(plan) = dropped.iter().find(|file| !is_import && is_study_plan(file.path())) {
+            let plan = Source::Dropped(plan.clone());
+            commands.push(Command::Studies(StudiesCommand::Open(vec![plan])));
         } else if dropped.is_empty() {
             // Nothing was dropped, or strokes only.
         } else if let Self::Import(sheet) = &mut *self {
@@ -255,6 +260,10 @@ impl Sheet {
 
 /// Command that takes a file that is neither a project nor a library; `None` for those.
 pub(crate) fn command_for(path: &Path) -> Option<Command> {
+    if is_study_plan(path) {
+        let source = Source::Path(path.to_owned());
+        return Some(Command::Studies(StudiesCommand::Open(vec![source])));
+    }
     if !is_other_kind(path) {
         return None;
     }

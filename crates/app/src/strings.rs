@@ -34,6 +34,7 @@ pub mod shape;
 pub mod signal;
 pub mod signals;
 pub mod stroke;
+pub mod studies;
 pub mod textures;
 pub mod view;
 

@@ -22,6 +22,7 @@ mod stage;
 pub mod status_bar;
 pub(crate) mod stopwatch;
 mod strokes;
+mod studies;
 mod title_bar;
 pub mod tour;
 
@@ -61,6 +62,7 @@ use crate::state::history::History;
 use crate::state::photo::PhotoReader;
 use crate::state::pictures::Pictures;
 use crate::state::recorded_stroke::StrokeReader;
+use crate::studies::page::StudiesPage;
 use crate::window::pages::Pages;
 use crate::window::preview::Preview;
 use crate::window::status_bar::status_ui;
@@ -84,6 +86,8 @@ pub struct Begin {
     pub output: OutputChoice,
     /// Paths of the files that outlive the program.
     pub keeping: StoragePaths,
+    /// Seed of a simulated participant who takes part in the study of the file to open.
+    pub simulation_seed: Option<u64>,
 }
 
 /// Readers of files, in the background.
@@ -125,7 +129,7 @@ impl Window {
     pub fn new(ctx: &egui::Context, begin: Begin) -> anyhow::Result<Self> {
         install(ctx);
         icons::install(ctx);
-        let Begin { mut project, file, take, output, keeping } = begin;
+        let Begin { mut project, file, take, output, keeping, simulation_seed } = begin;
         // A new project on a library has a point in the middle of the usual axes.
         project.fit_points();
         let mut session = Session::new(project.library.clone())?;
@@ -153,6 +157,8 @@ impl Window {
         }
         let scale = Scale::new(files.settings.scale);
         ctx.set_zoom_factor(scale.set());
+        let mut pages = Pages::default();
+        pages.studies.simulate(simulation_seed);
         Ok(Self {
             project,
             history: History::default(),
@@ -167,7 +173,7 @@ impl Window {
             gesture: GestureCounter::default(),
             sheet,
             tour,
-            pages: Pages::default(),
+            pages,
             // Without a current folder, the user completes the path.
             exports_folder: std::env::current_dir().unwrap_or_default(),
             output: selected_output,
@@ -216,6 +222,11 @@ impl Window {
         &self.pages.signals
     }
 
+    /// Studies workspace.
+    pub fn studies(&self) -> &StudiesPage {
+        &self.pages.studies
+    }
+
     /// Import sheet, if open.
     pub fn import(&self) -> Option<&ImportSheet> {
         match &self.sheet {
@@ -251,6 +262,10 @@ impl Window {
         self.collect_simulated(&ctx);
         self.collect_strokes();
         self.remember_output();
+        self.follow_studies(&ctx);
+        if self.study_ui(ui, &ctx) {
+            return;
+        }
         let escaped = self.escaped(&ctx);
         let mut commands = if self.sheet.is_open() {
             Vec::new()

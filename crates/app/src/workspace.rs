@@ -14,6 +14,8 @@ pub enum Workspace {
     Build,
     /// Compares, compresses and edits signals.
     Signals,
+    /// Runs experiments with people.
+    Studies,
 }
 
 /// Description of a workspace.
@@ -31,7 +33,7 @@ pub struct WorkspaceInfo {
 
 impl Workspace {
     /// All workspaces, in the order of their tabs.
-    pub const ALL: [Self; 3] = [Self::Author, Self::Build, Self::Signals];
+    pub const ALL: [Self; 4] = [Self::Author, Self::Build, Self::Signals, Self::Studies];
 
     /// Returns the description of the workspace.
     pub const fn info(self) -> WorkspaceInfo {
@@ -53,6 +55,12 @@ impl Workspace {
                 help: "Compare, compress and edit signals",
                 show: "Show the Signals workspace",
                 key: Key::Num3,
+            },
+            Self::Studies => WorkspaceInfo {
+                name: "Studies",
+                help: "Run experiments with people and analyze them",
+                show: "Show the Studies workspace",
+                key: Key::Num4,
             },
         }
     }

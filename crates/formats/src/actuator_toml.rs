@@ -22,7 +22,7 @@ use shagreen_core::actuator::{
 use shagreen_core::units::{Hertz, Kilograms, Volts};
 
 use crate::library::id_from_name;
-use crate::parser_words::plain;
+use crate::toml_text::{self, quoted};
 
 /// Value of the `format` key.
 pub const FORMAT: &str = "shagreen-actuator";
@@ -169,7 +169,8 @@ struct CalibrationV1 {
 pub fn read_actuator(bytes: &[u8]) -> Result<Actuator, ActuatorFileError> {
     let text =
         std::str::from_utf8(bytes).map_err(|error| ActuatorFileError::NotText { at: error.valid_up_to() })?;
-    let damaged = |error: toml::de::Error| damaged(&error, text);
+    let damaged =
+        |error: toml::de::Error| ActuatorFileError::Damaged { reason: toml_text::reason(&error, text) };
     // The header is checked first: in a newer version, unknown keys are not an error.
     let header: HeaderV1 = toml::from_str(text).map_err(damaged)?;
     if header.format != FORMAT {
@@ -284,22 +285,6 @@ fn exact(si: f64, per_si: f64, back: impl Fn(f64) -> f64) -> f64 {
         .chain([product, product.next_up(), product.next_down()])
         .find(|value| back(*value) == si)
         .unwrap_or(product)
-}
-
-/// A TOML string: JSON escapes, plus one for DEL, which TOML also requires.
-fn quoted(text: &str) -> String {
-    serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007F")
-}
-
-/// The parser's message on one line, with the line number in the file.
-fn damaged(error: &toml::de::Error, text: &str) -> ActuatorFileError {
-    let message = plain(error.message());
-    let before = error.span().and_then(|span| text.get(..span.start));
-    let reason = match before {
-        Some(before) => format!("{message} at line {}", before.matches('\n').count() + 1),
-        None => message,
-    };
-    ActuatorFileError::Damaged { reason }
 }
 
 fn actuator(wire: ActuatorV1) -> Result<Actuator, ActuatorError> {

@@ -46,7 +46,14 @@ impl FileKind {
 /// - [`ErrorKind::FileTooLarge`] for a file above [`FileKind::max_bytes`].
 /// - Any error of the system.
 pub fn read(path: &Path, kind: FileKind) -> io::Result<Vec<u8>> {
-    let file = open(path)?;
+    read_open(&open(path)?, kind)
+}
+
+/// Returns the bytes of an open regular file from its position to its end.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_open(file: &File, kind: FileKind) -> io::Result<Vec<u8>> {
     let n_bytes = file.metadata()?.len();
     let mut bytes = Vec::new();
     if n_bytes <= kind.max_bytes() {
@@ -76,6 +83,22 @@ pub fn open(path: &Path) -> io::Result<File> {
 /// As [`open`].
 pub fn open_to_lock(path: &Path) -> io::Result<File> {
     open_with(OpenOptions::new().read(true).write(true), path).or_else(|_| open(path))
+}
+
+/// Opens a regular file to read it and to append to it. Nothing in it can be overwritten.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_to_append(path: &Path) -> io::Result<File> {
+    open_with(OpenOptions::new().read(true).append(true), path)
+}
+
+/// Creates a file to append to.
+///
+/// # Errors
+/// [`ErrorKind::AlreadyExists`] if there is anything at the path, else any error of the system.
+pub fn create_to_append(path: &Path) -> io::Result<File> {
+    OpenOptions::new().read(true).append(true).create_new(true).open(path)
 }
 
 /// Opens a folder to lock it. Nothing is read from it.

@@ -8,7 +8,8 @@
 //!   the caller that opened the file adds its path.
 //! - An imperfection that leaves the data usable is a warning in [`imported::Imported`], not an error.
 //! - Types whose names end in `V1` define a file format. Files use mm/s, N and mm; values in memory use SI units.
-//! - Only [`atomic`] writes files, and it writes each file completely or not at all.
+//! - Only [`atomic`] writes files, and it writes each file completely or not at all. The exception is the log of a session
+//!   ([`study_log`]), which grows by whole lines and is never shortened.
 //!
 //! ```
 //! let library = shagreen_formats::starter::starter_library()?;
@@ -80,9 +81,13 @@ pub mod space_report;
 pub mod starter;
 pub mod stroke;
 pub mod stroke_csv;
+pub mod study_log;
+pub mod study_plan;
+pub mod study_tables;
 pub mod svc;
 pub mod text_limits;
 pub mod texture_files;
 pub mod thresholds;
+mod toml_text;
 pub mod wav;
 pub mod wav_encoding;

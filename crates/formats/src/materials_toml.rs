@@ -10,7 +10,7 @@ use shagreen_core::surfaces::material::{Bumps, Material, MaterialError, Pattern,
 use shagreen_core::texture::stick_slip::StickSlip;
 use shagreen_core::units::MetersPerSecond;
 
-use crate::parser_words::plain;
+use crate::toml_text;
 
 /// The materials of a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,7 +134,8 @@ struct StickSlipV1 {
 pub fn read_materials(bytes: &[u8]) -> Result<Materials, MaterialsError> {
     let text =
         std::str::from_utf8(bytes).map_err(|error| MaterialsError::NotText { at: error.valid_up_to() })?;
-    let wire: MaterialsV1 = toml::from_str(text).map_err(|error| damaged(&error, text))?;
+    let wire: MaterialsV1 = toml::from_str(text)
+        .map_err(|error| MaterialsError::Damaged { reason: toml_text::reason(&error, text) })?;
     let materials: Vec<Material> = wire.material.into_iter().map(material).collect();
     if materials.is_empty() {
         return Err(MaterialsError::Empty);
@@ -147,17 +148,6 @@ pub fn read_materials(bytes: &[u8]) -> Result<Materials, MaterialsError> {
         }
     }
     Ok(Materials { seed: wire.seed, materials })
-}
-
-/// The parser's message on one line, with the line number in the file.
-fn damaged(error: &toml::de::Error, text: &str) -> MaterialsError {
-    let message = plain(error.message());
-    let before = error.span().and_then(|span| text.get(..span.start));
-    let reason = match before {
-        Some(before) => format!("{message} at line {}", before.matches('\n').count() + 1),
-        None => message,
-    };
-    MaterialsError::Damaged { reason }
 }
 
 fn material(wire: MaterialV1) -> Material {

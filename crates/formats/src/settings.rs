@@ -1,5 +1,7 @@
 //! Saved settings of a user and a machine, independent of the project: one JSON file.
 
+mod study_settings;
+
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
@@ -12,6 +14,8 @@ use crate::parser_words::plain;
 use crate::path_json;
 use crate::photo_networks::PhotoNetworks;
 use crate::rig_settings::RigSettings;
+
+pub use study_settings::{PIXELS_PER_MM, StudySettings};
 
 /// Nesting depth up to which values get their own lines.
 const OPEN_DEPTH: usize = 2;
@@ -67,6 +71,9 @@ pub struct Settings {
     /// Libraries outside the folders of their projects that the user has permitted, newest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub libraries: Vec<PermittedLibrary>,
+    /// What studies with people need to know about this machine.
+    #[serde(skip_serializing_if = "StudySettings::is_usual")]
+    pub studies: StudySettings,
     /// Fields of other versions.
     #[serde(flatten)]
     pub unknown: Map<String, Value>,
@@ -200,6 +207,7 @@ pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
         libraries: taken(&mut all, "libraries")
             .map(|all: Vec<Value>| all.iter().filter_map(permitted_library).collect())
             .unwrap_or_default(),
+        studies: taken(&mut all, "studies").map(StudySettings::checked).unwrap_or_default(),
         rig,
         unknown: all,
     };
@@ -228,6 +236,7 @@ pub fn merged(base: &Settings, ours: &Settings, theirs: Settings) -> Settings {
         prompts: joined(&base.prompts, &ours.prompts, theirs.prompts, MAX_PROMPTS),
         photo_networks: newer(&base.photo_networks, &ours.photo_networks, theirs.photo_networks),
         libraries: joined(&base.libraries, &ours.libraries, theirs.libraries, MAX_LIBRARIES),
+        studies: StudySettings::merged(&base.studies, &ours.studies, theirs.studies),
         unknown: theirs.unknown,
     }
 }

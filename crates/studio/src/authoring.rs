@@ -65,10 +65,15 @@ pub fn shaped_plane_at(
     if shape.is_neutral() {
         return plane_at(texture, rate, reporter);
     }
-    let shaped = shape
-        .apply(&texture.model)
-        .with_context(|| format!("\"{}\" cannot have the shape {shape}", texture.id))?;
-    plane_of(&texture.id, &shaped, rate, reporter)
+    plane_of(&texture.id, &shaped_model(texture, shape)?, rate, reporter)
+}
+
+/// Returns the model of a texture in a shape.
+///
+/// # Errors
+/// The texture cannot be shaped; the message names it.
+pub(crate) fn shaped_model(texture: &TextureEntry, shape: &Shape) -> anyhow::Result<TextureModel> {
+    shape.apply(&texture.model).with_context(|| format!("\"{}\" cannot have the shape {shape}", texture.id))
 }
 
 /// The plane of the texture with this id.

@@ -18,7 +18,7 @@ macro_rules! page {
 }
 
 /// All pages, the table of contents first.
-pub static PAGES: [GuidePage; 46] = [
+pub static PAGES: [GuidePage; 48] = [
     page!("index"),
     page!("first-steps"),
     page!("terms"),
@@ -45,6 +45,8 @@ pub static PAGES: [GuidePage; 46] = [
     page!("validate-a-space"),
     page!("judgment-tables"),
     page!("questionnaires"),
+    page!("run-a-study"),
+    page!("analyze-a-study"),
     page!("prompts-and-photos"),
     page!("predict-attributes"),
     page!("train"),

@@ -45,5 +45,6 @@ pub mod seen_materials;
 pub mod short_text;
 pub mod sound;
 pub mod space;
+pub mod study;
 pub mod tap_transients;
 pub mod trace;

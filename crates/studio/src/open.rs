@@ -19,6 +19,8 @@ use crate::permitted_libraries::{OutsideLibrary, Permitted, without_dots};
 
 /// Bytes at the beginning of a file that tell its kind.
 const HEAD_BYTES: u64 = 256;
+/// Ending of the name of the plan of a study.
+pub const PLAN_ENDING: &str = "toml";
 /// Endings of the names of files that the window takes although they are neither projects nor libraries: recordings,
 /// models, strokes and photos.
 pub const OTHER_ENDINGS: [&str; 13] =
@@ -28,6 +30,11 @@ pub const OTHER_ENDINGS: [&str; 13] =
 /// or a library, which may have any name.
 pub fn is_other_kind(path: &Path) -> bool {
     OTHER_ENDINGS.contains(&ending_of(path).as_str()) && !begins_like_json(path)
+}
+
+/// Returns whether a file is the plan of a study, by the ending of its name.
+pub fn is_study_plan(path: &Path) -> bool {
+    ending_of(path) == PLAN_ENDING
 }
 
 fn begins_like_json(path: &Path) -> bool {

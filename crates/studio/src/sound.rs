@@ -13,9 +13,10 @@ use shagreen_core::texture::shape::Shape;
 use shagreen_core::texture::tap::Tap;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::{Library, TextureEntry};
+use shagreen_formats::project::{AuthoredTexture, BlendChoice};
 use shagreen_formats::wav::TraceV1;
 
-use crate::authoring::{authoring, shaped_plane_at};
+use crate::authoring::{authoring, shaped_model, shaped_plane_at};
 use crate::near_names::unknown_texture;
 use crate::report::Reporter;
 
@@ -116,6 +117,48 @@ impl Sound {
             extrapolated: authored.is_extrapolated,
             parents: authored.parents,
         })
+    }
+
+    /// Authors an authored texture of a project, in a shape. `library` has the textures of the project, without the positions
+    /// of those that take no part in it.
+    ///
+    /// # Errors
+    /// As [`Sound::of_point`].
+    pub fn of_authored(
+        library: &Library,
+        authored: &AuthoredTexture,
+        shape: &Shape,
+        reporter: &dyn Reporter,
+    ) -> anyhow::Result<Self> {
+        // The library of a project may have other axes than when the texture was authored.
+        let n_axes = library.axis_names().len();
+        let blend = authored.blend.in_space(n_axes);
+        if blend.mode != authored.blend.mode {
+            reporter.note(&format!(
+                "\"{}\" has mode {}, which needs a space with one or two axes; it is interpolated in mode {}",
+                authored.name,
+                authored.blend.mode.id(),
+                blend.mode.id()
+            ));
+        }
+        note_lost_pins(library, &blend, reporter);
+        let blending = blend.blending(|id| library.index_of(id));
+        Self::of_point(library, authored.at.on(n_axes), (&blending, shape), reporter)
+    }
+
+    /// Returns the models of the voices in their shape, and their weights.
+    ///
+    /// # Errors
+    /// A texture cannot have the shape; the message names it.
+    pub fn voice_models(&self, library: &Library) -> anyhow::Result<Vec<(TextureModel, f64)>> {
+        let model = |(voice, weight): &(SoundVoice, f64)| {
+            let model = match voice {
+                SoundVoice::Texture(index) => shaped_model(&library.textures[*index], &self.shape)?,
+                SoundVoice::Interpolated(model) => model.clone(),
+            };
+            Ok((model, *weight))
+        };
+        self.voices.iter().map(model).collect()
     }
 
     /// Returns the speed-force planes of the voices at [`Sound::rate`], and their weights.
@@ -234,6 +277,23 @@ fn warn_outside_hull(point: SpacePoint, authored: &Authored, reporter: &dyn Repo
             "{point} lies too far outside the convex hull of the textures; {at}, the farthest point that can be computed, is \
              extrapolated"
         )),
+    }
+}
+
+/// Notes pins of an authored texture that have no effect, because a texture is not in the list or has no position in the space.
+fn note_lost_pins(library: &Library, blend: &BlendChoice, reporter: &dyn Reporter) {
+    if !blend.can_lock() {
+        return;
+    }
+    for id in &blend.locked {
+        let reason = match library.index_of(id) {
+            None => "the project has no such texture".to_owned(),
+            Some(texture) if library.textures[texture].place.is_none() => {
+                format!("it has no position on the axes {}", library.axis_names().join(", "))
+            }
+            Some(_) => continue,
+        };
+        reporter.note(&format!("the pin of \"{id}\" has no effect: {reason}"));
     }
 }
 

@@ -12,7 +12,7 @@ use crate::author::new_texture::{fresh, of_snapshot};
 use crate::author::renamed_row::{begin_rename, is_renamed, rename_ui};
 use crate::author::whole_space::own_help;
 use crate::command::Command;
-use crate::look::theme::{RADIUS, tokens};
+use crate::look::theme::{RADIUS, SCROLL_BAR_ROOM, tokens};
 use crate::panel::Panel;
 use crate::state::edit::{Edit, name_of_snapshot};
 use crate::strings::{self, authored as words};
@@ -21,8 +21,8 @@ use crate::strings::{self, authored as words};
 const ROW: f32 = 22.0;
 /// Height of a snapshot button, in points.
 const CHIP: f32 = 18.0;
-/// Maximum height of the list in a large window, in points.
-const LIST_HEIGHT: f32 = 12.0 * ROW;
+/// Number of rows of the list in a small and in a large window, if it has that many.
+const N_ROWS: [f32; 2] = [3.0, 12.0];
 /// Maximum share of the column height that the list takes.
 const LIST_SHARE: f32 = 0.21;
 /// Center of the canvas.
@@ -47,9 +47,14 @@ pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
             }
         });
     });
-    let height = LIST_HEIGHT.min(LIST_SHARE * ui.available_height());
+    let n_rows = rows_in(ui.available_height());
+    let is_scrolled = panel.project.authored.len() as f32 > n_rows;
     let is_other = selected_another(ui, panel.project.texture().key);
-    ScrollArea::vertical().id_salt("authored").max_height(height).show(ui, |ui| {
+    let area = ScrollArea::vertical().id_salt("authored").auto_shrink([false, true]);
+    area.max_height(n_rows * ROW).show(ui, |ui| {
+        if is_scrolled {
+            ui.set_max_width(ui.available_width() - SCROLL_BAR_ROOM);
+        }
         ui.spacing_mut().item_spacing.y = 0.0;
         for (index, texture) in panel.project.authored.iter().enumerate() {
             let is_selected = index == panel.project.selected;
@@ -66,6 +71,11 @@ pub(crate) fn authored_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     ui.add_space(2.0);
     commands.extend(compare_ui(ui, panel));
     commands
+}
+
+/// Number of rows of the list in a column of this height, in points. No row is partly visible.
+fn rows_in(height: f32) -> f32 {
+    (LIST_SHARE * height / ROW).floor().clamp(N_ROWS[0], N_ROWS[1])
 }
 
 /// Whether the selection has changed since the list was last drawn.
@@ -173,4 +183,16 @@ fn snapshots_ui(ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
     });
     ui.spacing_mut().interact_size.y = height;
     commands
+}
+
+#[cfg(test)]
+mod tests {
+    use super::rows_in;
+
+    #[test]
+    fn the_list_shows_whole_rows() {
+        for (height, n_rows) in [(0.0, 3.0), (430.0, 4.0), (620.0, 5.0), (3000.0, 12.0)] {
+            assert_eq!(rows_in(height), n_rows, "{height}");
+        }
+    }
 }

@@ -1,5 +1,6 @@
 //! Canvas of the space: textures, triangulation, convex hull and the draggable authored points.
 
+mod axis_words;
 mod canvas_menu;
 mod drop_ui;
 mod estimates_ui;
@@ -22,6 +23,7 @@ use shagreen_core::space::authoring::Weights;
 use shagreen_core::space::{LabelSource, SpacePoint};
 use shagreen_core::texture::blend::Mode;
 
+use self::axis_words::{axis_words, grid_ui};
 use self::canvas_menu::canvas_menu;
 use self::drop_ui::drop_ui;
 use self::estimates_ui::{ellipse_ui, site_ellipses_ui};
@@ -29,8 +31,8 @@ pub use self::map::ShownMap;
 use self::map::map_ui;
 use self::no_sites_ui::no_sites_ui;
 pub use self::path_tool::PathTool;
-use self::path_tool::{path_line, path_marker, path_points};
-use self::points_ui::authored_points_ui;
+use self::path_tool::{number_areas, path_line, path_marker, path_points};
+use self::points_ui::{authored_points_ui, lines_to_parents};
 use self::sites_ui::sites_ui;
 use self::slice::{legend, legend_ui};
 use self::status_line::foot_ui;
@@ -92,6 +94,9 @@ const LEGEND_GAP: f32 = 1.0;
 /// Distances of the controls from the upper edge of the canvas, and of the textures from the controls, in points.
 const BAR_TOP: f32 = 3.0;
 const BELOW_BAR: f32 = 4.0;
+/// Width of the strip left of the textures, with the words of the y axis, and margin on the right, in points.
+const LEFT_OF_SITES: f32 = 23.0;
+const RIGHT: f32 = 36.0;
 
 /// Distance beyond the view within which items are still drawn, in points.
 const AROUND_VIEW: f32 = 30.0;
@@ -116,7 +121,8 @@ pub fn canvas_ui(
     let bar_height = bar_height.max(if may_wrap { 2.0 * BAR_ROW } else { BAR_ROW });
     // The picture of a texture at the upper edge of the space is below the controls, too.
     let top = BAR_TOP + bar_height + radius_for(outer.height()) + BELOW_BAR;
-    let rect = Rect::from_min_max(outer.min + vec2(36.0, top), outer.max - vec2(36.0, FOOT + AROUND_VIEW));
+    let left = LEFT_OF_SITES + radius_for(outer.height());
+    let rect = Rect::from_min_max(outer.min + vec2(left, top), outer.max - vec2(RIGHT, FOOT + AROUND_VIEW));
     state.view = follow_view(ui, Axes { rect, view: state.view }, &background);
     let axes = Axes { rect, view: state.view };
     if let Some(pressed_at) = ui.input(|i| i.pointer.press_origin()) {
@@ -127,7 +133,9 @@ pub fn canvas_ui(
     if let Some(map) = map {
         map_ui(ui, axes, map);
     }
-    let mut words = grid(ui, axes, outer, panel.session.poles(), t);
+    grid_ui(ui, axes, t);
+    let axis_words = axis_words(ui, axes, outer, panel.session.poles(), t);
+    let mut words: Vec<Rect> = axis_words.iter().map(|word| word.area).collect();
     state.is_narrow = outer.width() < NARROW_WIDTH;
     let corner = pos2(axes.rect.right(), outer.top() + 5.0);
     let source = (!state.is_narrow).then(|| source_ui(ui, corner, panel, t));
@@ -137,13 +145,15 @@ pub fn canvas_ui(
     let lines = legend(panel, map);
     let legend = below.and_then(|below| legend_ui(ui, below, &lines, t));
     words.extend(legend);
-    // Names of textures keep clear of the controls, too.
+    // Names of textures keep clear of the controls and of the numbers of the path points, too.
     words.extend(state.bar);
-    let seen = ui.clip_rect();
+    words.extend(number_areas(ui, axes, panel, tool));
+    let (seen, beside_view) = (ui.clip_rect(), ui.painter().clone());
     // Items beyond the view must not overlap the axis labels.
     ui.set_clip_rect(rect.expand(AROUND_VIEW).intersect(seen));
     triangles(ui, axes, panel, t);
     path_line(ui, axes, panel, t);
+    lines_to_parents(ui, axes, panel, t);
     site_ellipses_ui(ui, axes, panel, t);
     if let Some(on_canvas) = guess.and_then(PositionEstimate::on_canvas) {
         ellipse_ui(ui, axes, on_canvas, t.accent);
@@ -162,9 +172,13 @@ pub fn canvas_ui(
         }
         commands.push(move_to(to));
     }
-    let sites = sites_ui(ui, axes, panel, tool, &words, map.is_some(), t);
+    let sites = sites_ui(ui, axes, panel, tool, &words, t);
     commands.extend(sites.commands);
     state.pointed = sites.pointed;
+    // A texture at the left edge may reach into the strip of these words.
+    for word in axis_words {
+        word.show(&beside_view, t);
+    }
     commands.extend(no_sites_ui(ui, axes, panel, t));
     commands.extend(authored_points_ui(ui, axes, panel, tool, &sites.covered, t));
     commands.extend(path_points(ui, axes, panel, tool, t));
@@ -208,44 +222,6 @@ fn radius_for(height: f32) -> f32 {
 
 fn move_to(point: SpacePoint) -> Command {
     Command::Edit(Edit::MovePoint(point))
-}
-
-/// Draws the grid lines and the labels at the ends of the axes of the canvas, those of the x axis first; returns the rectangles
-/// of these labels.
-fn grid(ui: &Ui, axes: Axes, outer: Rect, poles: &[[String; 2]], t: &Tokens) -> Vec<Rect> {
-    let painter = ui.painter();
-    let faint = Stroke::new(1.0, t.line.gamma_multiply(0.5));
-    let r = axes.rect;
-    for i in 0..=4 {
-        let line = axes.ui_from_space(SpacePoint::plane(25.0 * f64::from(i), 25.0 * f64::from(i)));
-        if r.x_range().expand(1.0).contains(line.x) {
-            painter.vline(line.x, r.y_range(), faint);
-        }
-        if r.y_range().expand(1.0).contains(line.y) {
-            painter.hline(r.x_range(), line.y, faint);
-        }
-    }
-    let font = FontId::proportional(13.0);
-    let label =
-        |pos: Pos2, align: Align2, text: &str| painter.text(pos, align, text, font.clone(), t.text_weak);
-    let bottom = outer.bottom() - 6.0;
-    let across = poles.first().into_iter().flat_map(|[low, high]| {
-        [(r.left(), Align2::LEFT_BOTTOM, low), (r.right(), Align2::RIGHT_BOTTOM, high)]
-    });
-    let mut words: Vec<Rect> = across.map(|(x, align, text)| label(pos2(x, bottom), align, text)).collect();
-    // A space with one axis has no vertical one.
-    let up = poles.get(1).into_iter().flat_map(|[low, high]| [(high, r.top()), (low, r.bottom())]);
-    for (text, y) in up {
-        let galley = painter.layout_no_wrap(text.clone(), font.clone(), t.text_weak);
-        let size = galley.size();
-        // Beside the corner, where the picture of a texture may lie.
-        let y = if y == r.top() { y + size.x } else { y - site_radius(axes) - 6.0 };
-        let pos = pos2(outer.left() + 8.0, y);
-        let shape = egui::epaint::TextShape::new(pos, galley, t.text_weak);
-        painter.add(Shape::Text(shape.with_angle(-std::f32::consts::FRAC_PI_2)));
-        words.push(Rect::from_min_max(pos2(pos.x, y - size.x), pos2(pos.x + size.y, y)));
-    }
-    words
 }
 
 /// Draws the source of the positions with its upper right corner at `corner`; returns its rectangle.

@@ -111,7 +111,7 @@ fn picture_ui(ui: &mut Ui, texture: &AuthoredTexture) -> Option<Command> {
     ui.horizontal(|ui| {
         let mut millimeters = picture.millimeters;
         let width =
-            DragValue::new(&mut millimeters).range(WIDTHS_MM).speed(0.5).max_decimals(1).suffix(" mm");
+            DragValue::new(&mut millimeters).range(WIDTHS_MM).speed(0.5).fixed_decimals(1).suffix(" mm");
         let width = ui.add(width).accessible_name(words::PICTURE_WIDTH);
         if width.on_hover_text(words::PICTURE_WIDTH_HELP).changed() {
             changed = Some(Some(Arc::new(Picture { millimeters, ..Picture::clone(picture) })));

@@ -3,12 +3,10 @@
 mod controls_ui;
 mod pad_menu;
 mod picture;
+pub(crate) mod surface;
 mod trail_ui;
 
-use egui::{
-    Align2, CursorIcon, Event, FontId, PointerButton, Pos2, Rect, Role, Sense, Stroke, TouchPhase, Ui,
-    WidgetInfo, pos2, vec2,
-};
+use egui::{FontId, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 use shagreen_core::units::{Contact, MetersPerSecond, Newtons, Radians};
 use shagreen_device::controls::Input;
 use shagreen_device::hand::{Hand, Path};
@@ -18,9 +16,9 @@ use shagreen_device::touch::Touch;
 use crate::author::pad::controls_ui::controls_ui;
 use crate::author::pad::pad_menu::pad_menu;
 pub use crate::author::pad::picture::PadPicture;
+use crate::author::pad::surface::{CURSOR, ReportedPressure, scale_bar, stroke_report, tip_ui};
 use crate::author::pad::trail_ui::{LiveTrail, trail_ui};
 use crate::command::Command;
-use crate::look::drag::dragged_to;
 use crate::look::theme::{RADIUS, tokens};
 use crate::look::tooltips::{Hint, is_learned, learn};
 use crate::panel::Panel;
@@ -28,8 +26,6 @@ use crate::session::Session;
 use crate::state::mouse_report::MouseReport;
 use crate::strings;
 
-/// Scale of the pad, in points per millimeter.
-const POINTS_PER_MM: f32 = 3.0;
 /// Range of the speed of the automatic stroke, in mm/s.
 const SPEEDS_MM_PER_S: std::ops::RangeInclusive<f32> = 5.0..=300.0;
 /// Range of the normal force, in N.
@@ -50,8 +46,8 @@ pub struct PadState {
     pub(crate) is_preview: bool,
     /// Number of stroke recordings when last checked, to detect a new one.
     n_strokes: u64,
-    /// Last pressure that the window system reported for a pen or finger on the pad, 0 to 1.
-    pressure: Option<f64>,
+    /// Pressure of a pen or finger on the pad.
+    pressure: ReportedPressure,
     trail: LiveTrail,
 }
 
@@ -63,7 +59,7 @@ impl Default for PadState {
             repeat: Repeat::AS_RECORDED,
             is_preview: false,
             n_strokes: 0,
-            pressure: None,
+            pressure: ReportedPressure::default(),
             trail: LiveTrail::default(),
         }
     }
@@ -92,17 +88,6 @@ impl PadState {
         if self.n_strokes != session.n_strokes() {
             self.n_strokes = session.n_strokes();
             (self.repeats, self.repeat) = (true, Repeat::AS_RECORDED);
-        }
-    }
-
-    /// A pressure stays valid until the next report or until release: a pen held still reports nothing.
-    fn follow_pressure(&mut self, events: &[Event]) {
-        for event in events {
-            match event {
-                Event::Touch { phase: TouchPhase::End | TouchPhase::Cancel, .. } => self.pressure = None,
-                Event::Touch { force: Some(force), .. } => self.pressure = Some(f64::from(*force)),
-                _ => {}
-            }
         }
     }
 }
@@ -144,65 +129,24 @@ pub fn pad_ui(
         lay_mark(ui, area, lay);
     }
     scale_bar(ui, area);
-    tip(ui, area, panel.session.touch());
-    ui.input(|i| state.follow_pressure(&i.events));
+    tip_ui(ui, area, panel.session.touch());
+    touch_label(ui, area, panel.session.touch());
+    ui.input(|i| state.pressure.follow(&i.events));
     if response.hovered() {
         let scrolled = ui.input(|i| i.smooth_scroll_delta.y);
         let force_n = state.hand.force_n * (scrolled * 0.0015).exp();
         state.hand.force_n = force_n.clamp(*FORCES_N.start(), *FORCES_N.end());
     }
-    // The secondary button opens the menu and strokes nothing.
-    let is_secondary = ui.input(|i| {
-        let secondary = PointerButton::Secondary;
-        let is_primary = i.pointer.primary_down() || i.pointer.primary_released();
-        !is_primary && (i.pointer.button_down(secondary) || i.pointer.button_released(secondary))
-    });
-    let pressed = response.is_pointer_button_down_on() && !is_secondary;
-    let held_at = response.interact_pointer_pos().filter(|_| pressed || response.clicked());
-    if let Some(pos) = dragged_to(ui, &response).or(held_at).filter(|_| !is_secondary) {
-        let [x_m, y_m] = on_pad_m(area, pos);
+    outcome.mouse = stroke_report(ui, area, &response, state.pressure);
+    if outcome.mouse.is_some() {
         learn(ui.ctx(), Hint::StrokePad);
-        outcome.mouse = Some(MouseReport { x_m, y_m, pressed, pressure: state.pressure });
-        // The output reports the tip after this frame, and a pointer that rests asks for none.
-        ui.ctx().request_repaint();
     }
     outcome.commands.extend(pad_menu(&response, panel));
-    let response = response.on_hover_cursor(CursorIcon::Crosshair);
+    let response = response.on_hover_cursor(CURSOR);
     if panel.session.touch().contact.force_n <= 0.0 && !is_learned(ui.ctx(), Hint::StrokePad) {
         response.on_hover_text(strings::PAD_HELP);
     }
     outcome
-}
-
-/// Screen position of a point on the pad, given in m from the center of the pad with y upwards.
-fn in_ui(area: Rect, x_m: f32, y_m: f32) -> Pos2 {
-    area.center() + vec2(x_m, -y_m) * (POINTS_PER_MM * 1e3)
-}
-
-/// Position on the pad of a point of the screen, in m from the center of the pad with y upwards.
-fn on_pad_m(area: Rect, pos: Pos2) -> [f64; 2] {
-    let from_middle = (pos - area.center()) / (POINTS_PER_MM * 1e3);
-    [f64::from(from_middle.x), f64::from(-from_middle.y)]
-}
-
-fn scale_bar(ui: &Ui, area: Rect) {
-    let t = tokens(ui.ctx());
-    let (length, inset) = (10.0 * POINTS_PER_MM, 9.0);
-    let back = Rect::from_min_max(
-        area.right_bottom() - vec2(length + 2.0 * inset, 28.0),
-        area.right_bottom() - vec2(4.0, 4.0),
-    );
-    ui.painter().rect_filled(back, 3.0, t.background.gamma_multiply(0.75));
-    let y = back.bottom() - 6.0;
-    let x = back.center().x;
-    ui.painter().hline(x - length / 2.0..=x + length / 2.0, y, Stroke::new(2.0, t.text));
-    ui.painter().text(
-        pos2(x, y - 3.0),
-        Align2::CENTER_BOTTOM,
-        strings::TEN_MM,
-        FontId::proportional(10.5),
-        t.text,
-    );
 }
 
 /// Draws three lines along the lay in the lower left corner.
@@ -221,56 +165,16 @@ fn lay_mark(ui: &Ui, area: Rect, lay: Radians) {
     }
 }
 
-/// Draws the tip as reported by the audio callback: a ring whose disc grows with the normal force, in a dent that deepens
-/// with it.
-fn tip(ui: &Ui, area: Rect, touch: Touch) {
+/// Writes the speed and force of the tip as reported by the audio callback.
+fn touch_label(ui: &Ui, area: Rect, touch: Touch) {
     if touch.contact.force_n <= 0.0 {
         return;
     }
     let t = tokens(ui.ctx());
-    let pos = in_ui(area, touch.x_m, touch.y_m);
     let painter = ui.painter().with_clip_rect(area);
-    let pressed = (touch.contact.force_n / 2.0).min(1.0);
-    for ring in 0..6 {
-        let share = 1.0 - ring as f32 / 6.0;
-        let shadow = egui::Color32::from_black_alpha((10.0 + 22.0 * pressed) as u8);
-        painter.circle_filled(pos, 7.0 + (6.0 + 12.0 * pressed) * share, shadow);
-    }
-    painter.circle_filled(pos, 7.0, t.background.gamma_multiply(0.6));
-    painter.circle_filled(pos, 2.0 + 3.0 * pressed, t.accent);
-    painter.circle_stroke(pos, 7.0, Stroke::new(2.0, t.accent));
     let text = format!("{:.0} mm/s  {:.2} N", touch.contact.speed_mps * 1e3, touch.contact.force_n);
     let galley = painter.layout_no_wrap(text, FontId::proportional(11.5), t.text);
     let at = Rect::from_min_size(area.left_top() + vec2(6.0, 6.0), galley.size() + vec2(10.0, 4.0));
     painter.rect_filled(at, 3.0, t.background.gamma_multiply(0.75));
     painter.galley(at.min + vec2(5.0, 2.0), galley, t.text);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Event, PadState, TouchPhase};
-
-    #[test]
-    fn a_pressure_holds_until_the_pen_is_lifted() {
-        let touch = |phase, force| Event::Touch {
-            device_id: egui::TouchDeviceId(0),
-            id: egui::TouchId(0),
-            phase,
-            pos: egui::Pos2::ZERO,
-            force,
-        };
-        let mut pad = PadState::default();
-        let mut after = |events: &[Event]| {
-            pad.follow_pressure(events);
-            pad.pressure
-        };
-        assert_eq!(after(&[]), None);
-        assert_eq!(
-            after(&[touch(TouchPhase::Start, Some(0.25)), touch(TouchPhase::Move, Some(0.5))]),
-            Some(0.5)
-        );
-        assert_eq!(after(&[]), Some(0.5));
-        assert_eq!(after(&[touch(TouchPhase::Move, None)]), Some(0.5));
-        assert_eq!(after(&[touch(TouchPhase::End, Some(0.1))]), None);
-    }
 }

@@ -6,6 +6,7 @@ pub(crate) mod card_ui;
 mod job;
 mod position_estimate;
 mod simulation;
+mod words_estimate;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -24,6 +25,7 @@ pub use self::position_estimate::{MaterialEstimate, Origin, PositionEstimate};
 use self::job::{Job, Maker, Wanted};
 pub(crate) use self::simulation::Simulated;
 use self::simulation::Simulation;
+pub(crate) use self::words_estimate::WordsEstimate;
 use crate::command::prompt::PromptCommand;
 use crate::strings::prompt as words;
 use shagreen_studio::models::{AddedDiffusion, ModelFolder};

@@ -19,6 +19,7 @@ use crate::strings::build as strings;
 use shagreen_studio::judgments::{
     JudgmentKind, JudgmentTable, SimulatedJudgments, kind_of, read_judgments, rescaled, simulate, source_of,
 };
+use shagreen_studio::study::analysis::StudyJudgments;
 
 /// Judgments of one kind.
 #[derive(Clone, Debug)]
@@ -71,6 +72,12 @@ impl<T> Default for Slot<T> {
 }
 
 impl<T> Slot<T> {
+    /// Values that come from no file; without any, an empty slot.
+    fn of(name: &str, values: Vec<T>, ticket: u64) -> Self {
+        let read = (!values.is_empty()).then(|| (name.to_owned(), Arc::new(values)));
+        Self { read, ticket, ..Self::default() }
+    }
+
     /// Values that were read; empty if there are none.
     pub fn values(&self) -> &[T] {
         self.read.as_ref().map_or(&[], |(_, values)| values)
@@ -116,6 +123,17 @@ impl Judgments {
             };
             Outcome { name: strings::SIMULATED_PANEL.to_owned(), content }
         });
+    }
+
+    /// Replaces all judgments by those of a study with this name. Kinds of judgments that the study does not have become empty.
+    pub(super) fn take_study(&mut self, name: &str, judgments: StudyJudgments) {
+        self.n_tickets += 1;
+        let ticket = self.n_tickets;
+        let StudyJudgments { sorts, ratings, votes } = judgments;
+        self.sorting = Slot::of(name, sorts, ticket);
+        self.ratings = Slot::of(name, ratings, ticket);
+        self.votes = Slot::of(name, votes, ticket);
+        self.changed();
     }
 
     fn begin(&mut self, ctx: &Context, work: impl FnOnce() -> Outcome + Send + 'static) {

@@ -25,6 +25,7 @@ use crate::state::source::Source;
 use crate::strings::build as strings;
 
 pub use shagreen_studio::space::BuiltSpace;
+use shagreen_studio::study::analysis::StudyJudgments;
 
 /// Width of the text shown before a space is built, in points.
 const EMPTY_WIDTH: f32 = 520.0;
@@ -96,6 +97,12 @@ impl BuildPage {
     /// Reads dropped files, each as the kind detected from its name and columns.
     pub fn read(&mut self, sources: Vec<Source>, ctx: &Context) {
         self.judgments.read(sources, None, ctx);
+    }
+
+    /// Takes the judgments of a study with this name, in place of all tables.
+    pub(crate) fn take_study(&mut self, name: &str, judgments: StudyJudgments) {
+        self.judgments.take_study(name, judgments);
+        self.scale = [0.0, 100.0];
     }
 
     /// Takes over the results of the background jobs.

@@ -6,7 +6,7 @@ use egui::{Button, Frame, Label, Margin, Panel as Side, RichText, ScrollArea, Ui
 use shagreen_core::space::LabelSource;
 
 use crate::command::Command;
-use crate::look::theme::{GAP, tokens};
+use crate::look::theme::{GAP, SCROLL_BAR_ROOM, tokens};
 use crate::panel::Panel;
 use crate::state::edit::Edit;
 use crate::strings::build as strings;
@@ -32,6 +32,7 @@ pub(super) fn validation_ui(
         });
     }
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        ui.set_max_width(ui.available_width() - SCROLL_BAR_ROOM);
         ui.add_space(GAP);
         ui.add(Label::new(RichText::new(strings::VERDICT).heading()).wrap().selectable(false));
         let Some(built) = built else {

@@ -4,11 +4,13 @@ use egui::{
     Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, StrokeKind, TextStyle, Ui,
     Vec2, WidgetInfo, pos2, vec2,
 };
-use egui_plot::{GridInput, GridMark, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points};
+use egui_plot::{
+    GridInput, GridMark, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points, uniform_grid_spacer,
+};
 use shagreen_formats::figure::{Chart, Mark, Point, Scale, Series, Tone};
 
 use crate::look::label_places::{Placed, Wish, label_places, remembered_places};
-use crate::look::plot::{LABEL_SPACINGS, fixed, x_axis, y_axis};
+use crate::look::plot::{LABEL_SPACINGS, after_start, fixed, nice_step, short, x_axis, y_axis};
 use crate::look::theme::{GAP, Tokens, tokens, tone_color};
 
 /// Radius of a dot in points.
@@ -27,11 +29,13 @@ pub(crate) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
     if let Some(highest) = highest_whole(chart) {
         across = across.label_spacing(whole_spacing(ui, highest));
     }
-    if scale == Scale::Logarithmic {
-        across =
-            across.formatter(move |mark, _| format!("{}", round_to_digits(scale.coordinate(mark.value))));
-    }
-    let up = y_axis().label(RichText::new(&chart.y_label).small());
+    // With equal scales on both axes, the plot begins somewhere before the bounds.
+    let start = if chart.is_isotropic { f64::NEG_INFINITY } else { scale.laid_out(x.0) };
+    let across = across.formatter(after_start(start, move |value| match scale {
+        Scale::Logarithmic => format!("{}", round_to_digits(scale.coordinate(value))),
+        Scale::Linear => short(value),
+    }));
+    let up = y_axis().label(RichText::new(&chart.y_label).small()).formatter(|mark, _| short(mark.value));
     let mut plot = fixed(Plot::new(name.to_owned()), t.line)
         .custom_x_axes(vec![across])
         .custom_y_axes(vec![up])
@@ -39,6 +43,10 @@ pub(crate) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
         .height(ui.available_height());
     if chart.is_isotropic {
         plot = plot.data_aspect(1.0);
+    } else if y.1 > y.0 {
+        // At least five numbers, and not many more in a high window.
+        let step = nice_step(0.4 * (y.1 - y.0));
+        plot = plot.y_grid_spacer(uniform_grid_spacer(move |_| [5.0 * step, step, step]));
     }
     if scale == Scale::Logarithmic {
         plot = plot.x_grid_spacer(move |_: GridInput| {

@@ -1,10 +1,11 @@
 //! Plot of a map: a value over two axes as colors.
 
-use egui::{ColorImage, Id, Label, Rect, RichText, Sense, TextureHandle, TextureOptions, Ui, pos2, vec2};
+use egui::{ColorImage, Id, Label, RichText, Sense, TextureHandle, TextureOptions, Ui, vec2};
 use egui_plot::{AxisHints, Plot, PlotImage, PlotPoint, PlotResponse, uniform_grid_spacer};
 use shagreen_formats::figure::Map;
 
-use crate::look::plot::{fixed, nice_step, x_axis, y_axis};
+use crate::look::color_bar::color_bar;
+use crate::look::plot::{after_start, fixed, nice_step, short, x_axis, y_axis};
 use crate::look::theme::{map_color, tokens};
 
 /// Draws a map into the available space; `name` is its id.
@@ -29,11 +30,7 @@ pub(crate) fn color_key_ui(ui: &mut Ui, map: &Map) {
     };
     word(ui, format!("{:.0} {}", map.range.1 + 0.0, map.value_unit));
     let (area, _) = ui.allocate_exact_size(vec2(WIDTH, 8.0), Sense::hover());
-    for i in 0..WIDTH as usize {
-        let left = area.left() + i as f32;
-        let strip = Rect::from_min_max(pos2(left, area.top()), pos2(left + 1.0, area.bottom()));
-        ui.painter().rect_filled(strip, 0.0, map_color(i as f32 / (WIDTH - 1.0)));
-    }
+    ui.painter().add(color_bar(area, map_color));
     word(ui, format!("{:.0}", map.range.0 + 0.0));
 }
 
@@ -45,10 +42,7 @@ fn show(ui: &mut Ui, name: &str, map: &Map, across: AxisHints<'_>, up: AxisHints
     let (x, y) = (map.x, map.y);
     // At least five numbers.
     let step = nice_step(0.4 * (x.1 - x.0));
-    let across = across.formatter(move |mark, _| {
-        // The lowest number of the other axis is at the start of this one. Rounding removes binary fractions of tenths.
-        if mark.value <= x.0 { String::new() } else { format!("{}", (mark.value * 1e6).round() / 1e6 + 0.0) }
-    });
+    let across = across.formatter(after_start(x.0, short));
     let plot = fixed(Plot::new(name.to_owned()), t.line)
         .custom_x_axes(vec![across])
         .custom_y_axes(vec![up])

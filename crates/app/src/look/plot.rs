@@ -57,6 +57,11 @@ pub(crate) fn fixed(plot: Plot<'_>, grid: Color32) -> Plot<'_> {
         .set_margin_fraction(vec2(0.0, 0.05))
 }
 
+/// Number on an axis, without rounding errors of its steps.
+pub(crate) fn short(value: f64) -> String {
+    format!("{}", (value * 1e6).round() / 1e6 + 0.0)
+}
+
 /// Round number (1, 2 or 5 times a power of ten) that fits two to five times into `range`.
 pub(crate) fn nice_step(range: f64) -> f64 {
     let decade = 10.0_f64.powf((0.5 * range).log10().floor());
@@ -66,7 +71,7 @@ pub(crate) fn nice_step(range: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{after_start, nice_step};
+    use super::{after_start, nice_step, short};
     use egui_plot::GridMark;
 
     #[test]
@@ -74,6 +79,12 @@ mod tests {
         let written = after_start(-10.0, |secs| format!("{secs:.0} s"));
         let at = |value: f64| written(GridMark { value, step_size: 1.0 }, &(-10.0..=0.0));
         assert_eq!([at(-10.0), at(-9.0), at(0.0)], ["", "-9 s", "0 s"]);
+    }
+
+    #[test]
+    fn marks_are_short() {
+        assert_eq!(short(0.300_000_000_000_000_04), "0.3");
+        assert_eq!(short(-0.0), "0");
     }
 
     #[test]

@@ -20,7 +20,7 @@ pub struct Tokens {
     pub control: Color32,
     /// Controls under the pointer.
     pub control_hovered: Color32,
-    /// Outline of controls that are not pointed at, and of text fields; transparent where their fill suffices.
+    /// Outline of controls that are not pointed at, of check boxes and of text fields.
     pub control_line: Color32,
     /// Text fields.
     pub field: Color32,
@@ -55,7 +55,7 @@ pub const DARK: Tokens = Tokens {
     raised: Color32::from_rgb(0x22, 0x27, 0x2B),
     control: Color32::from_rgb(0x2D, 0x34, 0x39),
     control_hovered: Color32::from_rgb(0x39, 0x42, 0x48),
-    control_line: Color32::TRANSPARENT,
+    control_line: Color32::from_rgb(0x70, 0x7B, 0x81),
     field: Color32::from_rgb(0x12, 0x15, 0x17),
     line: Color32::from_rgb(0x33, 0x3B, 0x41),
     text: Color32::from_rgb(0xE9, 0xEC, 0xEB),
@@ -90,7 +90,7 @@ pub const LIGHT: Tokens = Tokens {
     raised: Color32::from_rgb(0xFF, 0xFF, 0xFF),
     control: Color32::from_rgb(0xE3, 0xE7, 0xE4),
     control_hovered: Color32::from_rgb(0xD6, 0xDC, 0xD8),
-    control_line: Color32::from_rgb(0xB0, 0xBA, 0xB5),
+    control_line: Color32::from_rgb(0x87, 0x91, 0x8C),
     field: Color32::from_rgb(0xFF, 0xFF, 0xFF),
     line: Color32::from_rgb(0xCB, 0xD2, 0xCD),
     text: Color32::from_rgb(0x1B, 0x21, 0x24),
@@ -220,10 +220,9 @@ fn style(t: &Tokens, mut visuals: Visuals) -> Style {
         widget.expansion = 0.0;
     }
     widgets.noninteractive.bg_stroke = Stroke::new(1.0, t.line);
-    if t.control_line != Color32::TRANSPARENT {
-        widgets.inactive.bg_stroke = Stroke::new(1.0, t.control_line);
-        widgets.open.bg_stroke = Stroke::new(1.0, t.control_line);
-    }
+    // An unchecked box and an empty field have nothing else that shows where they are.
+    widgets.inactive.bg_stroke = Stroke::new(1.0, t.control_line);
+    widgets.open.bg_stroke = Stroke::new(1.0, t.control_line);
     widgets.hovered.bg_stroke = Stroke::new(1.0, t.text_weak);
     widgets.active.bg_stroke = Stroke::new(1.0, t.accent);
     let mut style = Style { visuals, ..Style::default() };
@@ -292,6 +291,8 @@ mod tests {
         pairs.extend([t.text, t.text_weak].map(|color| (color, t.field, 4.5)));
         // Text of a selected tab or entry, and selected text.
         pairs.push((visuals.selection.stroke.color, visuals.selection.bg_fill, 4.5));
+        // Outline of a check box or field, on a panel and in a menu.
+        pairs.extend([t.panel, t.raised].map(|surface| (widgets.inactive.bg_stroke.color, surface, 3.0)));
         // Outline of the field with the keyboard focus.
         pairs.push((visuals.selection.stroke.color, t.panel, 3.0));
         let is_unreadable = |(color, surface, least): &(Color32, Color32, f64)| {
@@ -326,8 +327,7 @@ mod tests {
     #[test]
     fn controls_differ_from_the_canvas_and_from_text_fields() {
         for t in [&DARK, &LIGHT] {
-            let is_outlined = contrast(t.control_line, t.background) > 1.5 && t.control_line.is_opaque();
-            assert!(is_outlined || contrast(t.control, t.background) > 1.4, "{t:?}");
+            assert!(contrast(t.control_line, t.background) > 1.5 && t.control_line.is_opaque(), "{t:?}");
             assert!(contrast(t.control, t.field) > 1.2, "{t:?}");
         }
     }

@@ -6,7 +6,7 @@ use shagreen_studio::guide::{GuidePage, PAGES};
 
 use crate::command::Command;
 use crate::look::sheet_frame::sheet;
-use crate::look::theme::{GAP, RADIUS, tokens};
+use crate::look::theme::{GAP, RADIUS, SCROLL_BAR_ROOM, tokens};
 use crate::strings::help as strings;
 
 /// Width of the list of pages, in points.
@@ -38,7 +38,7 @@ impl GuideSheet {
         let mut commands = Vec::new();
         let height = HEIGHT_SHARE * ctx.content_rect().height();
         sheet(ctx, "guide", |ui| {
-            ui.set_width(LIST_WIDTH + PAGE_WIDTH + 3.0 * GAP);
+            ui.set_width(LIST_WIDTH + PAGE_WIDTH + SCROLL_BAR_ROOM + 3.0 * GAP);
             ui.add(Label::new(RichText::new(strings::GUIDE).heading().strong()).selectable(false));
             ui.add_space(GAP);
             ui.horizontal_top(|ui| {
@@ -70,12 +70,13 @@ impl GuideSheet {
 
     fn page_ui(&mut self, ui: &mut Ui) {
         ui.vertical(|ui| {
-            ui.set_width(PAGE_WIDTH);
+            ui.set_width(PAGE_WIDTH + SCROLL_BAR_ROOM);
             let mut area = ScrollArea::vertical().id_salt("page").auto_shrink(false);
             if std::mem::take(&mut self.is_fresh) {
                 area = area.vertical_scroll_offset(0.0);
             }
             area.show(ui, |ui| {
+                ui.set_max_width(PAGE_WIDTH);
                 // The Markdown library draws links at the top of their row; so the text beside them is there, too.
                 ui.style_mut().override_text_valign = Some(Align::TOP);
                 for (index, piece) in pieces(self.shown.text).into_iter().enumerate() {

@@ -234,7 +234,12 @@ impl ReliefSheet {
         let before = self.size;
         Grid::new("size of the relief").num_columns(3).spacing([2.0 * GAP, GAP]).show(ui, |ui| {
             let ReliefSize { side_mm, height_um } = &mut self.size;
-            let side = DragValue::new(side_mm).range(SIDES_MM).speed(0.5).max_decimals(2).suffix(" mm");
+            let side = DragValue::new(side_mm)
+                .range(SIDES_MM)
+                .speed(0.5)
+                .min_decimals(1)
+                .max_decimals(2)
+                .suffix(" mm");
             self.is_stated[0] |= number_ui(ui, strings::SIDE, strings::SIDE_HELP, side, self.is_stated[0]);
             let height = DragValue::new(height_um).range(HEIGHTS_UM).max_decimals(2).suffix(" µm");
             self.is_stated[1] |=

@@ -29,18 +29,20 @@ pub(super) fn tools_ui(ui: &mut Ui, editor: &mut Editor) -> bool {
         ui.add_space(GROUP_GAP);
         // Shown with every tool, so that the controls beside them do not move.
         let is_brush = editor.tool.is_brush();
-        let width = DragValue::new(&mut editor.radius_mm).range(RADII_MM).speed(0.05);
+        let width = DragValue::new(&mut editor.radius_mm).range(RADII_MM).speed(0.05).fixed_decimals(2);
         let width = width.prefix("± ").suffix(" mm");
         brush_ui(ui, is_brush, strings::BRUSH_WIDTH, strings::BRUSH_WIDTH_HELP, width);
         let height = DragValue::new(&mut editor.radius_octaves).range(RADII_OCTAVES).speed(0.01);
-        let height = height.prefix("± ").suffix(" oct");
+        let height = height.prefix("± ").suffix(" oct").fixed_decimals(2);
         brush_ui(ui, is_brush, strings::BRUSH_HEIGHT, strings::BRUSH_HEIGHT_HELP, height);
         let gain = DragValue::new(&mut editor.gain_db).range(GAINS_DB).speed(0.1).suffix(" dB");
+        let gain = gain.fixed_decimals(1);
         brush_ui(ui, is_brush, strings::BRUSH_GAIN, strings::BRUSH_GAIN_HELP, gain);
         ui.add_space(GROUP_GAP);
         together_ui(ui, "stretch", |ui| {
             is_stretched = ui.button(strings::STRETCH).on_hover_text(strings::STRETCH_HELP).clicked();
             let stretch = DragValue::new(&mut editor.stretch).range(STRETCHES).speed(0.02).prefix("× ");
+            let stretch = stretch.fixed_decimals(2);
             ui.add(stretch).accessible_name(strings::STRETCH_FACTOR).on_hover_text(strings::STRETCH_HELP);
         });
     });

@@ -1,6 +1,6 @@
 //! Card of a slot: its signal, the source of the next one, and buttons that play or feel it.
 
-use egui::{Align, Button, ComboBox, DragValue, Frame, Key, Label, Layout, RichText, TextEdit, Ui};
+use egui::{Align, Button, ComboBox, DragValue, Frame, Key, Label, Layout, RichText, TextEdit, Ui, vec2};
 use shagreen_core::signals::codec::bitrate::Bitrate;
 use shagreen_core::units::{MetersPerSecond, Newtons};
 
@@ -98,7 +98,9 @@ fn head_ui(ui: &mut Ui, slot: Slot, place: &Place, state: State, asked: &mut Ask
             } else {
                 (ICON_PLAY_ARROW, strings::play(slot))
             };
-            let play = ui.add_enabled(has_signal, icon_button(icon));
+            // As high as the button beside it.
+            let play = icon_button(icon).small().min_size(vec2(0.0, ui.spacing().interact_size.y));
+            let play = ui.add_enabled(has_signal, play);
             let play = play.accessible_name(name);
             if play.on_hover_text(strings::PLAY_HELP).clicked() {
                 let play = Command::Signals(SignalsCommand::Play(slot));
@@ -169,6 +171,7 @@ fn terms_ui(ui: &mut Ui, slot: Slot, place: &mut Place) -> bool {
         terms.speed = MetersPerSecond::from_mm_per_s(speed);
         let mut force = terms.force.0;
         let value = DragValue::new(&mut force).range(FORCES_N).suffix(" N").speed(0.01);
+        let value = value.min_decimals(2).max_decimals(4);
         number(ui, slot, strings::FORCE, strings::FORCE_HELP, value);
         terms.force = Newtons(force);
     });
@@ -179,10 +182,10 @@ fn terms_ui(ui: &mut Ui, slot: Slot, place: &mut Place) -> bool {
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 4.0;
         let level = DragValue::new(&mut terms.level_mps2).range(LEVELS_MPS2).suffix(" m/s²").speed(0.02);
-        number(ui, slot, strings::LEVEL, strings::LEVEL_HELP, level);
+        number(ui, slot, strings::LEVEL, strings::LEVEL_HELP, level.min_decimals(2).max_decimals(4));
         if kind == FileKind::Picture {
             let width = DragValue::new(&mut terms.width_mm).range(WIDTHS_MM).suffix(" mm").speed(0.5);
-            number(ui, slot, strings::WIDTH, strings::WIDTH_HELP, width);
+            number(ui, slot, strings::WIDTH, strings::WIDTH_HELP, width.min_decimals(1).max_decimals(3));
         }
     });
     if kind == FileKind::Picture {
@@ -204,6 +207,7 @@ fn recording_ui(ui: &mut Ui, slot: Slot, terms: &mut Terms) {
         ui.spacing_mut().item_spacing.x = 4.0;
         let mut full_scale = terms.full_scale_mps2.unwrap_or(1.0);
         let value = DragValue::new(&mut full_scale).range(FULL_SCALES_MPS2).suffix(" m/s²").speed(0.05);
+        let value = value.min_decimals(2).max_decimals(4);
         number(ui, slot, strings::FULL_SCALE, strings::FULL_SCALE_HELP, value);
         if full_scale != terms.full_scale_mps2.unwrap_or(1.0) {
             terms.full_scale_mps2 = Some(full_scale);

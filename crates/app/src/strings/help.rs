@@ -44,11 +44,11 @@ pub fn step(step: Step) -> [&'static str; 2] {
         Step::Blend => [
             "See its contributions",
             "Name the texture here, set its position in numbers, and see the textures with the largest weights. \
-             The button S plays one of them alone.",
+             The S button plays one of them alone.",
         ],
         Step::Keep => [
             "Save it",
-            "The menu File saves the project, exports the audible texture as WAV, and opens the gallery. The button Add creates \
+            "The File menu saves the project, exports the audible texture as WAV, and opens the gallery. The Add button creates \
              another texture for comparison. Every edit can be undone.",
         ],
     }

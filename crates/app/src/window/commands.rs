@@ -279,6 +279,7 @@ impl Window {
             Command::ShowMap(quantity) => self.pages.author.map = quantity,
             Command::Compare(command) => self.carry_out_compare(command),
             Command::Signals(command) => self.carry_out_signals(command, ctx),
+            Command::Studies(command) => self.carry_out_studies(command, ctx),
             Command::Undo if self.painting_labels()[0].is_some() => self.pages.signals.undo(),
             Command::Undo => {
                 clear_notice(ctx);

@@ -40,6 +40,9 @@ impl Window {
             self.session.say(message);
         }
         let wants_to_close = ctx.input(|i| i.viewport().close_requested());
+        if wants_to_close && self.asks_to_leave_study(ctx) {
+            return;
+        }
         let would_lose = self.files.document.is_changed() || self.pages.signals.has_unsaved_painting();
         if wants_to_close && !self.files.is_closing && would_lose {
             ctx.send_viewport_cmd(ViewportCommand::CancelClose);

@@ -6,11 +6,13 @@ use crate::build::page::BuildPage;
 use crate::choices::signals::Slot;
 use crate::command::Command;
 use crate::command::signals::SignalsCommand;
+use crate::command::studies::StudiesCommand;
 use crate::panel::Panel;
 use crate::sheets::DropTarget;
 use crate::signals::page::SignalsPage;
 use crate::state::compare::{CompareCommand, Side};
 use crate::strings;
+use crate::studies::page::StudiesPage;
 use crate::window::author_page::AuthorPage;
 use crate::window::stage::Stage;
 use crate::workspace::Workspace;
@@ -49,6 +51,7 @@ pub(super) struct Pages {
     pub(super) stage: Stage,
     pub(super) build: BuildPage,
     pub(super) signals: SignalsPage,
+    pub(super) studies: StudiesPage,
 }
 
 impl Pages {
@@ -63,6 +66,7 @@ impl Pages {
             Workspace::Author => None,
             Workspace::Build => Some(&mut self.build),
             Workspace::Signals => Some(&mut self.signals),
+            Workspace::Studies => Some(&mut self.studies),
         }
     }
 
@@ -124,6 +128,25 @@ impl Page for SignalsPage {
             takes_strokes: true,
             here: strings::signals::DROP_HERE,
             kinds: strings::signals::DROP_KINDS,
+        })
+    }
+}
+
+impl Page for StudiesPage {
+    fn collect(&mut self, ctx: &Context) {
+        Self::collect(self, ctx);
+    }
+
+    fn show(&mut self, ui: &mut Ui, panel: &Panel<'_>) -> Vec<Command> {
+        Self::show(self, ui, panel)
+    }
+
+    fn drop_target(&self) -> Option<DropTarget> {
+        Some(DropTarget {
+            command: |sources| Command::Studies(StudiesCommand::Open(sources)),
+            takes_strokes: false,
+            here: strings::studies::DROP_HERE,
+            kinds: strings::studies::DROP_KINDS,
         })
     }
 }

@@ -16,16 +16,9 @@ use crate::author::prompt::{PositionEstimate, Simulated, has_still};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
 use crate::panel::Panel;
-use crate::session::Session;
 use crate::state::edit::Edit;
 use crate::strings::prompt as words;
 use crate::workspace::Workspace;
-
-/// The estimate with the local mean of the textures on every axis without an estimate, in a space with more axes than the
-/// canvas.
-fn completed(guess: PositionEstimate, session: &Session) -> PositionEstimate {
-    if session.is_sliced() { guess.completed(|told| session.completed(told)) } else { guess }
-}
 
 impl Window {
     /// Executes a command about prompts, and records the prompt in the settings.
@@ -49,7 +42,7 @@ impl Window {
         let texture = self.project.texture();
         let Some(before) = self.prompts.guess_of(texture).map(PositionEstimate::notes) else { return };
         let session = &self.session;
-        let completed = |guess| completed(guess, session);
+        let completed = |guess: PositionEstimate| guess.in_space(session);
         let Some(guess) = self.prompts.take_material(texture, material.as_deref(), completed) else { return };
         // Notes that the user has written stay.
         let notes = if texture.notes == before { guess.notes() } else { texture.notes.clone() };
@@ -72,7 +65,7 @@ impl Window {
         if arrived.axes != self.session.axes() {
             return self.session.say(words::OTHER_AXES.to_owned());
         }
-        let guess = completed(arrived.guess, &self.session);
+        let guess = arrived.guess.in_space(&self.session);
         let is_there = |(key, picture): &(u32, Arc<Picture>)| {
             self.project.authored.iter().any(|texture| has_still(texture, *key, picture))
         };

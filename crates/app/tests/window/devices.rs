@@ -11,7 +11,7 @@ use shagreen_studio::project::new_project;
 
 use crate::frame::painted;
 use crate::support::{
-    Author, author, author_of, begin, choose, click, says, shown, unnamed_controls, wait, window,
+    Author, author, author_at, author_of, begin, choose, click, says, shown, unnamed_controls, wait, window,
 };
 
 fn opened() -> Author {
@@ -34,6 +34,16 @@ fn the_sheet_opens_and_closes_by_keys_and_names_everything() {
     assert!(says(&harness, "48000 Hz, 2 channels"));
     harness.key_press(Key::Escape);
     wait(&mut harness, "the sheet closes", |h| !says(h, strings::ACTUATOR));
+}
+
+#[test]
+fn numbers_have_the_same_decimals_at_every_scale() {
+    for scale in [1.0, 1.5, 2.0] {
+        let mut harness = author_at(begin(new_project()), [1280.0, 720.0], scale);
+        click(&mut harness, strings::OPEN);
+        wait(&mut harness, "the sheet opens", |h| says(h, strings::TITLE));
+        assert!(says(&harness, "1.00 m/s²"), "{scale}");
+    }
 }
 
 #[test]

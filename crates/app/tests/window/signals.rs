@@ -47,6 +47,15 @@ fn level(signal: &BenchSignal, from: f64, to: f64) -> f64 {
 }
 
 #[test]
+fn the_buttons_of_a_slot_are_equally_high_on_one_line() {
+    let harness = with_heard();
+    let [play, feel] =
+        [signals::play(Slot::A), signals::feel(Slot::A)].map(|name| harness.get_by_label(&name).rect());
+    let shift = (play.center().y - feel.center().y).abs();
+    assert!(shift < 1.0 && (play.height() - feel.height()).abs() < 2.0, "{play:?}, {feel:?}");
+}
+
+#[test]
 fn what_is_heard_goes_through_the_codec_and_both_are_compared() {
     let mut harness = with_heard();
     let name = window(&harness).project().texture().name.clone();

@@ -44,6 +44,7 @@ pub(crate) fn begin(project: Project) -> Begin {
         take: None,
         output: OutputChoice::Id("null".to_owned()),
         keeping: StoragePaths::default(),
+        simulation_seed: None,
     }
 }
 

@@ -19,7 +19,9 @@ use shagreen_app::command::{Command, FileCommand};
 use shagreen_app::state::compare::{CompareCommand, Side};
 use shagreen_app::state::edit::Edit;
 use shagreen_app::state::files::StoragePaths;
-use shagreen_app::strings::{self, build, conflict, document, help, import, map, shape, signals};
+use shagreen_app::strings::{
+    self, build, conflict, document, help, import, map, shape, signals, studies as words,
+};
 use shagreen_app::workspace::Workspace;
 use shagreen_core::space::heat_map::Quantity;
 use shagreen_core::space::space_build::FeatureKind;
@@ -31,6 +33,8 @@ use shagreen_studio::export::WAV;
 use shagreen_studio::project::new_project;
 
 use crate::import::recording;
+use crate::studies;
+use crate::studies::plans::{RATING, RELEVANCE, RUN, SIMILARITY, SORTING, plan_text};
 use crate::support::{Author, begin, choose, click, drop_files, says, wait, wait_for_field, window};
 
 /// Kind of a view.
@@ -54,6 +58,7 @@ pub(crate) fn each_view(harness: &mut Author, folder: &Path, look: &mut Look<'_>
     menus(harness, look);
     build_views(harness, look);
     signals_views(harness, look);
+    studies_views(harness, folder, look);
     carry_out(harness, Command::Show(Workspace::Author));
     show(harness, look, "Author, several textures", Kind::Workspace);
     sheets(harness, look);
@@ -186,6 +191,43 @@ fn signals_views(harness: &mut Author, look: &mut Look<'_>) {
             wait(harness, "some time", |_| start.elapsed() > Duration::from_secs(1));
         }
         show(harness, look, &format!("Signals, {}", signals::view(view)), Kind::Workspace);
+    }
+}
+
+/// The Studies workspace, and what a participant sees.
+fn studies_views(harness: &mut Author, folder: &Path, look: &mut Look<'_>) {
+    carry_out(harness, Command::Show(Workspace::Studies));
+    show(harness, look, "Studies", Kind::Workspace);
+    let problem = folder.join("problem.toml");
+    std::fs::write(&problem, plan_text("")).unwrap();
+    studies::open(harness, &problem);
+    show(harness, look, "Studies, problems", Kind::Workspace);
+    let plan = studies::plan_file(folder, &[SORTING, RATING, SIMILARITY, RELEVANCE].concat());
+    studies::open(harness, &plan);
+    show(harness, look, "Studies, plan", Kind::Workspace);
+    harness.get_by_label(words::CALIBRATE).click_accesskit();
+    harness.run_steps(2);
+    show(harness, look, "Studies, screen scale", Kind::Workspace);
+    click(harness, words::CANCEL);
+    // A session of each design, left at its first trial.
+    studies::start(harness, words::START);
+    show(harness, look, "study, consent", Kind::Workspace);
+    click(harness, words::AGREE);
+    show(harness, look, "study, instructions", Kind::Workspace);
+    assert!(studies::go_to_trial(harness));
+    show(harness, look, "study, sort", Kind::Workspace);
+    click(harness, words::LEAVE);
+    show(harness, look, "study, question", Kind::Workspace);
+    click(harness, words::LEAVE_NOW);
+    for (name, parts) in RUN {
+        let folder = folder.join(name);
+        std::fs::create_dir_all(&folder).unwrap();
+        let plan = studies::plan_file(&folder, parts);
+        studies::open(harness, &plan);
+        studies::start(harness, words::START);
+        assert!(studies::go_to_trial(harness));
+        show(harness, look, &format!("study, {name}"), Kind::Workspace);
+        studies::leave(harness);
     }
 }
 

@@ -176,7 +176,12 @@ pub fn simulated_sorts(
 }
 
 fn participants(config: &PanelConfig) -> impl Iterator<Item = String> {
-    (1..=config.n_participants).map(|number| format!("simulated-{number:02}"))
+    (1..=config.n_participants).map(simulated_name)
+}
+
+/// Name of a simulated participant, numbered from 1.
+pub fn simulated_name(number: usize) -> String {
+    format!("simulated-{number:02}")
 }
 
 fn check_names(textures: &[String], labels: &[Vec<f64>]) -> Result<(), PanelError> {
@@ -212,7 +217,7 @@ fn check(labels: &[Vec<f64>], n_labels: usize, config: &PanelConfig) -> Result<(
 /// Lloyd's k-means clustering; returns the group of each texture. The first center is texture `first`, and each further
 /// center is the texture farthest from the existing ones. An empty group takes the texture farthest from its own
 /// center.
-fn group(felt: &[Vec<f64>], n_groups: usize, first: usize) -> Vec<usize> {
+pub(crate) fn group(felt: &[Vec<f64>], n_groups: usize, first: usize) -> Vec<usize> {
     let mut centers = vec![felt[first].clone()];
     while centers.len() < n_groups {
         let farthest = farthest(felt, |point| nearest(point, &centers).1);

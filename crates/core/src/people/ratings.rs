@@ -15,7 +15,8 @@ pub use pair_name::{PairNameError, poles};
 pub use relevance::{RELEVANCE_LIMIT, Relevance, RelevanceVote, VoteError, relevances};
 pub use table::{RatingTable, RatingsError};
 
-use crate::maths::statistics::{mean, standard_deviation, t_quantile_two_sided};
+use crate::maths::hypothesis_tests::intervals::{Confidence, mean_interval};
+use crate::maths::statistics::mean;
 
 /// Two adjectives of opposite meaning, the poles of a rating scale.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,23 +49,37 @@ pub struct Rating {
 /// If the highest rating does not exceed this value, the scale is probably not 0 to 100.
 pub const SHORT_SCALE: f64 = 10.0;
 
-/// Mean rating of one texture on one adjective pair.
+/// Mean over raters, usually of the ratings of one texture on one adjective pair (0 to 100).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Average {
     /// Number of raters.
     pub n_raters: usize,
-    /// Mean over those who rated, 0..100; `None` if there are no ratings.
+    /// Mean over those who rated, in the unit of the ratings; `None` if there are no ratings.
     pub mean: Option<f64>,
-    /// Standard error of the mean, in points; `None` with fewer than two raters.
+    /// Standard error of the mean; `None` with fewer than two raters.
     pub standard_error: Option<f64>,
-    /// Half width of the 95 % confidence interval (Student's t), in points; `None` with fewer than two raters. The
-    /// interval may extend below 0 or above 100.
+    /// Half width of the 95 % confidence interval (Student's t); `None` with fewer than two raters. The interval may extend
+    /// beyond the ends of the scale.
     pub half_width: Option<f64>,
 }
 
 impl Average {
     /// Average of a texture that nobody rated.
     pub const NONE: Self = Self { n_raters: 0, mean: None, standard_error: None, half_width: None };
+
+    /// Average of these values, one for each rater.
+    pub fn of(values: &[f64]) -> Self {
+        if values.is_empty() {
+            return Self::NONE;
+        }
+        let interval = mean_interval(values, Confidence::NINETY_FIVE);
+        Self {
+            n_raters: values.len(),
+            mean: Some(mean(values)),
+            standard_error: interval.map(|interval| interval.standard_error),
+            half_width: interval.map(|interval| interval.half_width),
+        }
+    }
 }
 
 /// Averages on one adjective pair, one per texture.
@@ -72,17 +87,7 @@ impl Average {
 /// # Panics
 /// If `pair` is not an index of the table's pairs.
 pub fn averages(table: &RatingTable, pair: usize) -> Vec<Average> {
-    (0..table.textures().len()).map(|texture| average(&table.raters_of(texture, pair))).collect()
-}
-
-fn average(values: &[f64]) -> Average {
-    let n = values.len();
-    if n == 0 {
-        return Average::NONE;
-    }
-    let standard_error = (n > 1).then(|| standard_deviation(values) / (n as f64).sqrt());
-    let half_width = standard_error.map(|error| t_quantile_two_sided(0.05, (n - 1) as f64) * error);
-    Average { n_raters: n, mean: Some(mean(values)), standard_error, half_width }
+    (0..table.textures().len()).map(|texture| Average::of(&table.raters_of(texture, pair))).collect()
 }
 
 #[cfg(test)]

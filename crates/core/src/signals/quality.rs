@@ -14,7 +14,6 @@
 
 mod channels;
 mod correlation;
-mod d_prime;
 mod features;
 mod model;
 mod real_transform;
@@ -26,7 +25,6 @@ mod tests;
 use crate::dsp::threshold::Threshold;
 use crate::units::Hertz;
 
-pub use crate::signals::quality::d_prime::{Correction, Counts, d_prime, proportion_correct};
 pub use crate::signals::quality::features::Features;
 pub use crate::signals::quality::model::{
     Elimination, PAPER_FEATURES, PAPER_PAIRS, PAPER_RATE, PAPER_WEIGHTS, QualityModel, QualityModelError,
@@ -42,7 +40,7 @@ use self::features::{FeatureMeter, Measured};
 pub const SEGMENT_SECS: f64 = 0.8;
 
 /// Largest d′ that is stated as a number. At 5, an unbiased observer answers 99.4 % of yes-no questions correctly
-/// ([`proportion_correct`]), so that larger values mean the same.
+/// ([`crate::people::study::same_different::proportion_correct`]), so that larger values mean the same.
 pub const MOST_D_PRIME: f64 = 5.0;
 
 /// A feature that two signals are compared by.

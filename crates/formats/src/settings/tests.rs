@@ -20,6 +20,8 @@ fn settings_come_back_and_what_is_none_is_told() {
     settings.learned_hints = vec!["drag-point".to_owned()];
     settings.reduces_motion = Some(false);
     settings.panels.stage = Some(300.5);
+    settings.studies.pixels_per_mm = Some(3.78);
+    settings.studies.masking_output = Some("pulse:headphones".to_owned());
     let network = ImageNetwork::Resnet50("/r.safetensors".into());
     settings.photo_networks = Some(PhotoNetworks { network, heads: Some("/h.safetensors".into()) });
     #[cfg(unix)]
@@ -69,6 +71,8 @@ fn each_setting_is_read_on_its_own() {
         r#""scale": "large""#,
         r#""template": 7"#,
         r#""photo_networks": {"network": "resnet-50"}"#,
+        r#""studies": {"pixels_per_mm": 1e9}"#,
+        r#""studies": 3"#,
     ] {
         let bytes = format!(r#"{{"rig": {{"output": "null"}}, "later": 3, {wrong}}}"#);
         let mut expected = Settings { rig: Some(rig.clone()), ..Settings::default() };
@@ -127,6 +131,8 @@ fn settings_of_two_windows_are_merged_by_key() {
     ours.learned_hints = vec!["a".to_owned()];
     let none = PhotoNetworks { network: ImageNetwork::Statistics, heads: None };
     ours.photo_networks = Some(none.clone());
+    ours.studies.pixels_per_mm = Some(4.0);
+    theirs.studies.masking_output = Some("theirs".to_owned());
     theirs.learned_hints = vec!["b".to_owned()];
     theirs.note_project(Path::new("/theirs"));
     (theirs.scale, theirs.has_seen_tour) = (Some(1.5), true);
@@ -137,6 +143,8 @@ fn settings_of_two_windows_are_merged_by_key() {
     assert_eq!(both.unknown, theirs.unknown);
     assert_eq!((both.reduces_motion, both.photo_networks), (Some(true), Some(none)));
     assert_eq!(both.learned_hints, ["a", "b"]);
+    assert_eq!(both.studies.pixels_per_mm, Some(4.0));
+    assert_eq!(both.studies.masking_output.as_deref(), Some("theirs"));
     assert_eq!(merged(&base, &base, theirs.clone()), theirs);
     assert_eq!(merged(&base, &ours, base.clone()), ours);
 }

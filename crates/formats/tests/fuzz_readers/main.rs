@@ -20,6 +20,7 @@ mod photos;
 mod readers;
 mod recordings;
 mod signals;
+mod studies;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};

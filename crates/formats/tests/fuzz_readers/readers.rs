@@ -27,6 +27,7 @@ use crate::recordings::{
 use crate::signals::{
     profile_seeds, read_a_profile, read_a_stream, repair_stream, stream_bombs, stream_seeds,
 };
+use crate::studies::{log_seeds, plan_seeds, read_a_log, read_a_plan};
 
 /// A reader, and the source of its inputs.
 #[derive(Clone, Copy)]
@@ -179,6 +180,8 @@ pub(crate) const READERS: &[Reader] = &[
         },
     },
     Reader { name: "profile", seeds: profile_seeds, repair: None, bombs: csv_bombs, read: read_a_profile },
+    Reader { name: "study_plan", seeds: plan_seeds, repair: None, bombs: toml_bombs, read: read_a_plan },
+    Reader { name: "study_log", seeds: log_seeds, repair: None, bombs: json_bombs, read: read_a_log },
 ];
 
 fn no_bombs() -> Vec<Vec<u8>> {

@@ -11,6 +11,7 @@ use shagreen_core::space::heat_map::Quantity;
 
 use crate::command::Command;
 use crate::look::axes::Axes;
+use crate::look::color_bar::color_bar;
 use crate::look::list::ShowList as _;
 use crate::look::theme::{Tokens, map_color};
 use crate::strings::map as strings;
@@ -19,8 +20,6 @@ use crate::strings::map as strings;
 const OPACITY: f32 = 0.62;
 /// Size of the color scale, in points.
 const SCALE: Vec2 = vec2(80.0, 8.0);
-/// Number of color steps of the scale.
-const STEPS: usize = 32;
 
 /// Map behind the canvas, shown or still being computed.
 #[derive(Clone, Debug)]
@@ -105,6 +104,11 @@ fn add_polygon(mesh: &mut Mesh, corners: &[Pos2], picture: Rect, soft: f32, colo
     }
 }
 
+/// Color of the map on the canvas at a share of its range, 0 to 1: the canvas below it is visible.
+fn shown_color(share: f32, t: &Tokens) -> Color32 {
+    t.background.blend(map_color(share).gamma_multiply(OPACITY))
+}
+
 /// Draws the color scale between the lowest and the highest value.
 pub(super) fn scale_ui(ui: &mut Ui, map: &ShownMap, t: &Tokens) {
     let (low, high) = match map.range {
@@ -122,12 +126,8 @@ pub(super) fn scale_ui(ui: &mut Ui, map: &ShownMap, t: &Tokens) {
     let line = area.center().y;
     let left = area.left() + low_text.size().x + 5.0;
     ui.painter().galley(pos2(area.left(), line - 0.5 * low_text.size().y), low_text, t.text_weak);
-    let step = SCALE.x / STEPS as f32;
-    for i in 0..STEPS {
-        let corner = pos2(left + i as f32 * step, line - 0.5 * SCALE.y);
-        let part = Rect::from_min_size(corner, vec2(step + 0.5, SCALE.y));
-        ui.painter().rect_filled(part, 0.0, map_color((i as f32 + 0.5) / STEPS as f32));
-    }
+    let bar = Rect::from_min_size(pos2(left, line - 0.5 * SCALE.y), SCALE);
+    ui.painter().add(color_bar(bar, |share| shown_color(share, t)));
     let corner = pos2(left + SCALE.x + 5.0, line - 0.5 * high_text.size().y);
     ui.painter().galley(corner, high_text, t.text_weak);
     let help = strings::help(Some(map.quantity));
@@ -141,7 +141,8 @@ pub(super) fn scale_ui(ui: &mut Ui, map: &ShownMap, t: &Tokens) {
 
 #[cfg(test)]
 mod tests {
-    use super::add_polygon;
+    use super::{OPACITY, add_polygon, shown_color};
+    use crate::look::theme::{DARK, LIGHT, map_color};
     use egui::{Color32, Mesh, Pos2, Rect, pos2};
 
     /// Area of all triangles whose corners have a color, and of all triangles.
@@ -157,6 +158,22 @@ mod tests {
             }
         }
         areas
+    }
+
+    /// The scale has the colors that the translucent map has on the canvas.
+    #[test]
+    fn the_scale_has_the_colors_of_the_map() {
+        for (t, share) in [(&DARK, 0.0), (&DARK, 1.0), (&LIGHT, 0.3), (&LIGHT, 1.0)] {
+            let (map, canvas) = (map_color(share).to_array(), t.background.to_array());
+            let shown = shown_color(share, t).to_array();
+            for channel in 0..3 {
+                let [map, canvas] = [map, canvas].map(|color| f32::from(color[channel]));
+                let expected = OPACITY * map + (1.0 - OPACITY) * canvas;
+                // Each of the two steps rounds to a whole number.
+                assert!((f32::from(shown[channel]) - expected).abs() <= 2.0, "{shown:?}, {expected}");
+            }
+            assert_eq!(shown[3], 255);
+        }
     }
 
     /// The polygon is filled up to half a pixel inside its edge and fades until half a pixel outside, whichever way its

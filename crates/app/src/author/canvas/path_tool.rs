@@ -1,18 +1,22 @@
 //! Tool that draws a path through the space, with the path, its points and its controls.
 
+use std::sync::Arc;
+
 use egui::{
-    Align2, Button, ComboBox, CursorIcon, DragValue, FontId, Key, Pos2, Rect, Response, Role, Sense, Shape,
-    Stroke, Ui, WidgetInfo, vec2,
+    Align2, Button, Color32, ComboBox, CursorIcon, DragValue, FontId, Galley, Key, Pos2, Rect, Response,
+    Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2,
 };
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::texture_path::{Along, AtEnd, MAX_KEYS};
 use shagreen_core::space::texture_path::{LEAST_STEP, UserPath};
 
+use super::site_labels::backing_ui;
 use crate::author::context_menu::had_open_menu;
 use crate::command::Command;
 use crate::look::axes::Axes;
 use crate::look::drag::dragged_to;
 use crate::look::list::ShowList as _;
+use crate::look::plot::short;
 use crate::look::theme::Tokens;
 use crate::panel::Panel;
 use crate::state::edit::{Edit, PathChange};
@@ -118,6 +122,21 @@ pub(super) fn path_marker(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
     ui.painter().add(Shape::convex_polygon(corners(9.0), t.accent, Stroke::NONE));
 }
 
+/// Areas of the numbers of the path points, which are shown while the tool is on.
+pub(super) fn number_areas(ui: &Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTool) -> Vec<Rect> {
+    let path = panel.project.texture().path.as_ref().filter(|_| tool.is_on);
+    let points = path.into_iter().flat_map(|path| path.points.iter().enumerate());
+    points.map(|(i, point)| number_of_point(ui, i + 1, axes.ui_from_space(*point)).1).collect()
+}
+
+/// Number of a path point at `pos`, and the area in which it is drawn.
+fn number_of_point(ui: &Ui, number: usize, pos: Pos2) -> (Arc<Galley>, Rect) {
+    let font = FontId::proportional(10.5);
+    let galley = ui.painter().layout_no_wrap(number.to_string(), font, Color32::PLACEHOLDER);
+    let area = Align2::LEFT_BOTTOM.anchor_size(pos + vec2(9.0, -9.0), galley.size());
+    (galley, area)
+}
+
 /// Draws the path points. While the tool is on, they can be moved and deleted.
 pub(super) fn path_points(
     ui: &Ui,
@@ -162,8 +181,9 @@ pub(super) fn path_points(
         let radius = if is_pointed { 7.0 } else { 5.5 };
         ui.painter().circle_filled(pos, radius, t.background);
         ui.painter().circle_stroke(pos, radius, Stroke::new(2.0, if is_pointed { t.accent } else { t.text }));
-        let number = FontId::proportional(10.5);
-        ui.painter().text(pos + vec2(9.0, -9.0), Align2::LEFT_BOTTOM, (i + 1).to_string(), number, t.text);
+        let (number, area) = number_of_point(ui, i + 1, pos);
+        backing_ui(ui.painter(), area, t);
+        ui.painter().galley(area.min, number, t.text);
         response.on_hover_text(format!("{name}\n{}", strings::POINT_HELP));
     }
     commands
@@ -186,8 +206,10 @@ pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &UserPath) 
     };
     let mut shown = *value / factor;
     let speed = 0.01 * shown.max(1.0);
-    let length =
-        DragValue::new(&mut shown).range(range).speed(speed).max_decimals(1).suffix(format!(" {unit}"));
+    // The same text at every scale of the window.
+    let written = |value: f64, _| short((10.0 * value).round() / 10.0);
+    let length = DragValue::new(&mut shown).range(range).speed(speed).max_decimals(1);
+    let length = length.custom_formatter(written).suffix(format!(" {unit}"));
     let length = ui.add(length).accessible_name(strings::LENGTH).on_hover_text(strings::LENGTH_HELP);
     if length.changed() {
         *value = shown * factor;

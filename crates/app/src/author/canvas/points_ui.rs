@@ -34,9 +34,8 @@ use crate::strings::{self, authored};
 /// Step of an arrow key, in axis units (0 to 100). With Shift it is [`BIG_STEP`].
 const STEP: f64 = 1.0;
 
-/// Draws the authored points, the selected one on top, with lines from the audible one to the contributing textures. A
-/// click or drag selects another one. Points at one position fan out around the first one. Names of points avoid the areas in
-/// `covered`.
+/// Draws the authored points, the selected one on top. A click or drag selects another one. Points at one position fan
+/// out around the first one. Names of points avoid the areas in `covered`.
 pub(super) fn authored_points_ui(
     ui: &mut Ui,
     axes: Axes,
@@ -47,7 +46,6 @@ pub(super) fn authored_points_ui(
 ) -> Vec<Command> {
     let mut commands = Vec::new();
     if let Some(authored) = panel.session.authored() {
-        lines_to_parents(ui, axes, panel, authored, t);
         outside_ui(ui, axes, panel, authored, t);
     }
     let textures = &panel.project.authored;
@@ -222,7 +220,9 @@ fn selected_disc_ui(ui: &Ui, pos: Pos2, radius: f32, panel: &Panel<'_>, t: &Toke
     painter.circle_filled(pos, 3.0, t.authored[usize::from(panel.project.texture().color)]);
 }
 
-fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, authored: &Authored, t: &Tokens) {
+/// Draws lines from the audible point to the contributing textures.
+pub(super) fn lines_to_parents(ui: &Ui, axes: Axes, panel: &Panel<'_>, t: &Tokens) {
+    let Some(authored) = panel.session.authored() else { return };
     let on = axes.ui_from_space(authored.location.at);
     for ((texture, weight), color) in panel.session.shown_parents().iter().zip(t.parents) {
         if let Some(site) = panel.session.space().position(*texture) {

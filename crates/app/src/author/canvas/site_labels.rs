@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{FontId, Galley, Pos2, Rect, Stroke, Ui, Vec2, vec2};
+use egui::{FontId, Galley, Painter, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 
 use crate::look::label_places::{Placed, Wish, label_places, remembered_places};
 use crate::look::theme::Tokens;
@@ -17,8 +17,14 @@ pub(super) struct Around<'a> {
     pub(super) words: &'a [Rect],
     /// Rectangle of the selected authored point. Since it moves, names avoid it only while it is on their places.
     pub(super) point: Rect,
-    /// Whether a map is drawn behind the names.
-    pub(super) on_map: bool,
+}
+
+/// Opacity of the backing of names.
+const BACKING: f32 = 0.9;
+
+/// Draws the backing of the text in `area`, in the color of the canvas, so that no line strikes the text through.
+pub(super) fn backing_ui(painter: &Painter, area: Rect, t: &Tokens) {
+    painter.rect_filled(area.expand2(vec2(3.0, -1.0)), 3.0, t.background.gamma_multiply(BACKING));
 }
 
 /// Draws the names of the textures at `sites`, whose dots all have the same `radius`.
@@ -85,13 +91,8 @@ pub(super) fn site_labels(
             ui.painter().line_segment(line, Stroke::new(1.0, galleys[*dot].1.gamma_multiply(0.8)));
         }
     }
-    for (dot, Placed { area, .. }) in &drawn {
-        let back = match (rank(*dot).is_some() || is_pointed(*dot), around.on_map) {
-            (true, _) => 0.9,
-            (false, true) => 0.75,
-            (false, false) => 0.0,
-        };
-        ui.painter().rect_filled(area.expand2(vec2(4.0, -1.0)), 3.0, t.background.gamma_multiply(back));
+    for (_, Placed { area, .. }) in &drawn {
+        backing_ui(ui.painter(), *area, t);
     }
     for (dot, Placed { area, .. }) in &drawn {
         let (galley, color) = &galleys[*dot];

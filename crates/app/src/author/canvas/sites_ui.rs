@@ -60,7 +60,6 @@ pub(super) fn sites_ui(
     panel: &Panel<'_>,
     tool: &PathTool,
     words: &[Rect],
-    on_map: bool,
     t: &Tokens,
 ) -> DrawnSites {
     let (mut commands, mut under_pointer) = (Vec::new(), None);
@@ -110,7 +109,7 @@ pub(super) fn sites_ui(
     let point = points.get(panel.project.selected).copied().unwrap_or(Rect::NOTHING);
     let other_points = points.iter().enumerate().filter(|(index, _)| *index != panel.project.selected);
     let words: Vec<Rect> = words.iter().chain(other_points.map(|(_, area)| area)).copied().collect();
-    let around = Around { words: &words, point, on_map };
+    let around = Around { words: &words, point };
     let mut covered = site_labels(ui, panel, &named, radius, &around, pointed, t);
     covered.extend(words);
     let disc = |site: &Site| {

@@ -5,7 +5,7 @@ use egui::epaint::{RectShape, RoundedRect, Vertex};
 use egui::{Color32, Mesh, Painter, Pos2, Rect, TextureId, pos2};
 use shagreen_core::units::Radians;
 
-use super::on_pad_m;
+use super::surface::on_pad_m;
 use crate::look::theme::RADIUS;
 
 /// Picture of the audible texture, which repeats without a seam.
@@ -24,7 +24,7 @@ pub struct PadPicture {
 
 impl PadPicture {
     /// Fills the pad with the picture.
-    pub(super) fn show(&self, painter: &Painter, area: Rect) {
+    pub(crate) fn show(&self, painter: &Painter, area: Rect) {
         if self.turn.0 == 0.0 {
             let uv = Rect::from_min_max(self.uv(area, area.min), self.uv(area, area.max));
             let shape = RectShape::filled(area, f32::from(RADIUS), Color32::WHITE);

@@ -4,7 +4,8 @@ use egui::{Align2, FontId, Rect, Shape, Stroke, Ui, vec2};
 use shagreen_device::touch::Touch;
 use shagreen_device::track::PenSample;
 
-use super::{PadState, in_ui};
+use super::PadState;
+use super::surface::in_ui;
 use crate::look::motion::is_reduced;
 use crate::look::theme::tokens;
 use crate::session::Session;

@@ -13,6 +13,7 @@ use shagreen_studio::axes::axis_poles;
 use shagreen_studio::felt::GeneratedSurface;
 use shagreen_studio::seen_materials::SeenMaterial;
 
+use crate::session::Session;
 use crate::strings::prompt as strings;
 
 /// Estimate made from a prompt or photo.
@@ -85,6 +86,12 @@ impl PositionEstimate {
         let coordinates: Vec<f64> =
             (0..self.axes.len()).filter_map(|axis| Some(self.coordinate(axis)?.clamp(0.0, 100.0))).collect();
         SpacePoint::of(&coordinates).unwrap_or_default()
+    }
+
+    /// The estimate with the local mean of the textures on every axis without an estimate, in a space with more axes than the
+    /// canvas.
+    pub(crate) fn in_space(self, session: &Session) -> Self {
+        if session.is_sliced() { self.completed(|told| session.completed(told)) } else { self }
     }
 
     /// Coordinate on an axis: that of the estimate, or its local mean without one.

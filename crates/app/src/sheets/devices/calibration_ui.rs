@@ -90,7 +90,7 @@ impl DevicesSheet {
         ] {
             row(ui, name, |ui| {
                 let speed = 0.002 * *value;
-                let value = DragValue::new(value).range(range).speed(speed).max_decimals(2).suffix(suffix);
+                let value = DragValue::new(value).range(range).speed(speed).fixed_decimals(2).suffix(suffix);
                 ui.add(value).accessible_name(name).on_hover_text(help);
             });
         }

@@ -66,6 +66,7 @@ impl DevicesSheet {
             let hz = DragValue::new(&mut self.tone_hz).range(10.0..=1000.0).speed(1.0).suffix(" Hz");
             ui.add(hz).accessible_name(strings::TONE_HZ).on_hover_text(strings::TONE_HZ);
             let level = DragValue::new(&mut self.tone_mps2).range(0.01..=50.0).speed(0.05).suffix(" m/s²");
+            let level = level.fixed_decimals(2);
             ui.add(level).accessible_name(strings::TONE_LEVEL).on_hover_text(strings::TONE_LEVEL);
             let status = session.status();
             let plays = status.is_some_and(|s| s.plays_signal);

@@ -42,6 +42,7 @@ impl DevicesSheet {
             for (i, name) in [strings::WIDTH, strings::HEIGHT].into_iter().enumerate() {
                 row(ui, name, |ui| {
                     let value = DragValue::new(&mut size[i]).range(SIDES_MM).speed(0.5).suffix(" mm");
+                    let value = value.min_decimals(1).max_decimals(3);
                     if ui.add(value).accessible_name(name).changed() {
                         self.rig.pen_size_mm = Some(size);
                     }
@@ -77,15 +78,15 @@ impl DevicesSheet {
         heading(ui, strings::CURVE);
         let map = &mut self.rig.pressure_map;
         row(ui, strings::ACTIVATION, |ui| {
-            let slider = Slider::new(&mut map.activation_n, 0.0..=0.5).suffix(" N").max_decimals(3);
+            let slider = Slider::new(&mut map.activation_n, 0.0..=0.5).suffix(" N").fixed_decimals(3);
             ui.add(slider).accessible_name(strings::ACTIVATION);
         });
         row(ui, strings::FULL, |ui| {
-            let slider = Slider::new(&mut map.full_n, 0.6..=10.0).suffix(" N").max_decimals(2);
+            let slider = Slider::new(&mut map.full_n, 0.6..=10.0).suffix(" N").fixed_decimals(2);
             ui.add(slider).accessible_name(strings::FULL);
         });
         row(ui, strings::BEND, |ui| {
-            let slider = Slider::new(&mut map.bend, -4.0..=6.0).max_decimals(2);
+            let slider = Slider::new(&mut map.bend, -4.0..=6.0).fixed_decimals(2);
             ui.add(slider).accessible_name(strings::BEND).on_hover_text(strings::CURVE_HELP);
         });
         let map = *map;

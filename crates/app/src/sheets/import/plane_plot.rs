@@ -1,9 +1,9 @@
 //! Speed–force plane: segments or nodes as dots, and their convex hull.
 
 use egui::{Color32, Ui};
-use egui_plot::{HoverPosition, Line, Plot, PlotPoint, PlotPoints, Points};
+use egui_plot::{HoverPosition, Line, Plot, PlotPoint, PlotPoints, Points, uniform_grid_spacer};
 
-use crate::look::plot::fixed;
+use crate::look::plot::{fixed, nice_step, short};
 use crate::look::theme::{Tokens, tokens};
 use crate::strings::import as strings;
 
@@ -16,7 +16,7 @@ pub(super) struct Dot {
 /// Maximum distance of a click from a dot, in points.
 const REACH: f32 = 14.0;
 
-/// Draws the plane; returns the index of the dot that was clicked.
+/// Draws the plane; returns the index of the dot that was clicked. The title above it states the units of both axes.
 pub(super) fn plane_plot(
     ui: &mut Ui,
     name: &str,
@@ -27,6 +27,7 @@ pub(super) fn plane_plot(
     let t = tokens(ui.ctx());
     let highest = |value: fn(&Dot) -> f64| dots.iter().map(value).fold(0.0, f64::max).max(1e-3);
     let (speed_max, force_max) = (highest(|d| d.speed_mm_per_s), highest(|d| d.force_n));
+    let (across, up) = (nice_step(speed_max), nice_step(force_max));
     let plot = fixed(Plot::new(name.to_owned()), t.line)
         .height(height)
         .sense(egui::Sense::click())
@@ -36,8 +37,10 @@ pub(super) fn plane_plot(
             }
             HoverPosition::Elsewhere { .. } => None,
         })
-        .x_axis_formatter(|mark, _| format!("{} mm/s", short(mark.value)))
-        .y_axis_formatter(|mark, _| format!("{} N", short(mark.value)))
+        .x_grid_spacer(uniform_grid_spacer(move |_| [2.0 * across, across, across]))
+        .y_grid_spacer(uniform_grid_spacer(move |_| [2.0 * up, up, up]))
+        .x_axis_formatter(|mark, _| short(mark.value))
+        .y_axis_formatter(|mark, _| short(mark.value))
         .show(ui, |plot| {
             plot.set_plot_bounds_x(-0.03 * speed_max..=1.08 * speed_max);
             plot.set_plot_bounds_y(-0.05 * force_max..=1.1 * force_max);
@@ -64,11 +67,6 @@ pub(super) fn plane_plot(
     };
     let nearest = (0..dots.len()).min_by(|a, b| distance(&dots[*a]).total_cmp(&distance(&dots[*b])))?;
     (distance(&dots[nearest]) < REACH).then_some(nearest)
-}
-
-/// Number on an axis, without rounding errors of its steps.
-pub(super) fn short(value: f64) -> String {
-    format!("{}", (value * 1e6).round() / 1e6 + 0.0)
 }
 
 /// Color of a goodness of fit (GFC, 0 to 1).
@@ -126,7 +124,7 @@ fn hull(dots: &[Dot]) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Dot, hull, short};
+    use super::{Dot, hull};
 
     #[test]
     fn the_hull_goes_around_and_is_closed() {
@@ -142,11 +140,5 @@ mod tests {
         check(&square, &[[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [0.0, 0.0]]);
         check(&[[1.0, 1.0]], &[[1.0, 1.0]]);
         check(&[], &[]);
-    }
-
-    #[test]
-    fn marks_are_short() {
-        assert_eq!(short(0.300_000_000_000_000_04), "0.3");
-        assert_eq!(short(-0.0), "0");
     }
 }

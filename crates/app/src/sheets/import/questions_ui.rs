@@ -12,6 +12,8 @@ use crate::sheets::import::recording_state::RecordingState;
 use crate::strings::import as strings;
 use crate::strings::sentence;
 
+/// Largest width of the text of a question, in points: in a wide sheet, its answer stays beside it.
+const MOST_TEXT_WIDTH: f32 = 560.0;
 /// Width of an answer control, in points.
 const ANSWER_WIDTH: f32 = 128.0;
 /// Width of the mark beside it, in points.
@@ -74,7 +76,8 @@ fn question_ui(ui: &mut Ui, question: &Question, state: Given<'_>, typed: &mut T
     let width = ui.available_width();
     let height = ui.spacing().interact_size.y;
     let answers_width = if is_wide(question) { 2.0 * ANSWER_WIDTH + GAP } else { ANSWER_WIDTH };
-    let text_width = (width - answers_width - MARK_WIDTH - 2.0 * GAP).max(ANSWER_WIDTH);
+    let room = width - answers_width - MARK_WIDTH - 2.0 * GAP;
+    let text_width = room.clamp(ANSWER_WIDTH, MOST_TEXT_WIDTH);
     let row = ui.horizontal(|ui| {
         let in_column = Layout::left_to_right(Align::Center);
         ui.allocate_ui_with_layout(vec2(text_width, height), in_column, |ui| {

@@ -3,9 +3,8 @@
 use egui::{Color32, Ui};
 use egui_plot::{FilledArea, GridMark, Line, Plot, PlotPoints, PlotUi, Span};
 
-use crate::look::plot::{after_start, fixed, title};
+use crate::look::plot::{after_start, fixed, short, title};
 use crate::look::theme::{Tokens, tokens};
-use crate::sheets::import::plane_plot::short;
 use crate::sheets::import::trace::Trace;
 use crate::strings::import as strings;
 

@@ -3,9 +3,8 @@ use realfft::RealFftPlanner;
 use serde_json::Value;
 
 use super::{
-    Correction, Counts, Distances, Feature, PAPER_FEATURES, PAPER_WEIGHTS, QualityError, QualityMeter,
-    QualityModel, QualityModelError, RatedPair, d_prime, eliminate, nested_r_squared, proportion_correct,
-    rotate, spqi, st_sim,
+    Distances, Feature, PAPER_FEATURES, PAPER_WEIGHTS, QualityError, QualityMeter, QualityModel,
+    QualityModelError, RatedPair, eliminate, nested_r_squared, rotate, spqi, st_sim,
 };
 use crate::dsp::spectrum::rms;
 use crate::dsp::threshold::Threshold;
@@ -86,35 +85,6 @@ fn golden_distances() {
         let want = v["base_features"][key].as_f64().unwrap();
         assert!((got - want).abs() < 1e-9 * want.abs().max(1.0), "{key}: {got}, not {want}");
     }
-}
-
-#[test]
-fn golden_d_primes() {
-    let v = golden();
-    for (hits, false_alarms) in [(72, 72), (100, 44), (140, 10), (144, 0), (144, 5)] {
-        let counts = Counts { hits, n_different: 144, false_alarms, n_same: 144 };
-        let want = &v["dprime"][format!("h{hits}_f{false_alarms}")];
-        for (correction, key) in [(Correction::LogLinear, "loglinear"), (Correction::Clipped, "clip")] {
-            let got = d_prime(counts, correction).unwrap();
-            assert!((got - want[key].as_f64().unwrap()).abs() < 1e-9, "{hits}, {false_alarms}: {got}");
-        }
-    }
-    let none = Counts { hits: 0, n_different: 0, false_alarms: 0, n_same: 4 };
-    let more = Counts { hits: 5, n_different: 4, false_alarms: 0, n_same: 4 };
-    assert_eq!((d_prime(none, Correction::LogLinear), d_prime(more, Correction::Clipped)), (None, None));
-}
-
-/// Answers without bias: as many hits as correct rejections, so the share of hits is the proportion.
-#[test]
-fn the_proportion_of_correct_answers_is_that_of_an_observer_without_bias() {
-    for (hits, share) in [(60, 0.6), (90, 0.9), (99, 0.99)] {
-        let counts = Counts { hits, n_different: 100, false_alarms: 100 - hits, n_same: 100 };
-        let got = proportion_correct(d_prime(counts, Correction::Clipped).unwrap());
-        assert!((got - share).abs() < 1e-9, "{got} for {share}");
-    }
-    // Φ(1/2), from a table of the normal distribution.
-    assert!((proportion_correct(1.0) - 0.691_462_461).abs() < 1e-9);
-    assert!((proportion_correct(0.0) - 0.5).abs() < 1e-15);
 }
 
 /// The features of a tone are known in closed form.

@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use egui::{FontId, Pos2, Rect, Ui, Vec2, vec2};
+use egui::{FontId, Pos2, Rect, Ui, Vec2};
 
 use crate::author::canvas::point_id;
+use crate::author::canvas::site_labels::backing_ui;
 use crate::author::whole_space::own_textures;
 use crate::look::label_places::{Placed, Wish, label_places};
 use crate::look::theme::Tokens;
@@ -45,7 +46,7 @@ pub(super) fn names_ui(
             Wish { dot: 0, size: galley.size(), side: Vec2::ZERO, is_needed: is_pointed, may_lead: false };
         let placed = label_places(&[*pos], radius, &[wish], covered, ui.clip_rect()).first().copied();
         let Some(Placed { area, .. }) = placed.flatten() else { continue };
-        ui.painter().rect_filled(area.expand2(vec2(4.0, -1.0)), 3.0, t.background.gamma_multiply(0.9));
+        backing_ui(ui.painter(), area, t);
         ui.painter().galley(area.min, Arc::clone(&galley), t.text);
     }
 }

@@ -1,0 +1,127 @@
+//! A session by keys alone.
+
+use egui::Key;
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable as _;
+use shagreen_app::strings::studies;
+use shagreen_core::people::study::answer::Response;
+use shagreen_core::people::study::progress::Step;
+use shagreen_studio::study::logs::{load_log, usual_log_folder};
+
+use super::plans::{DISSIMILARITY, RATING, RELEVANCE, SIMILARITY, SORTING};
+use super::{open, plan_file, session, start};
+use crate::support::{Author, author, says, wait, window};
+
+fn keys(harness: &mut Author, keys: &[Key]) {
+    for key in keys {
+        harness.key_press(*key);
+        // A widget that takes the keyboard focus keeps its arrow keys some frames later.
+        harness.run_steps(4);
+    }
+}
+
+/// Types a number, without the key events that a keyboard sends beside the text.
+fn type_number(harness: &mut Author, text: &str) {
+    harness.get_by_role_and_label(Role::TextInput, studies::NUMBER).type_text(text);
+    harness.run_steps(2);
+}
+
+/// Waits until this number of trials is answered.
+fn answered(harness: &mut Author, n: usize) {
+    wait(harness, "it is answered", |h| session(h).counts().n_answered == n);
+    harness.run_steps(2);
+}
+
+#[test]
+fn a_session_needs_no_pointer() {
+    let folder = tempfile::tempdir().unwrap();
+    let parts = [SORTING, RELEVANCE, RATING, DISSIMILARITY, SIMILARITY].concat();
+    let parts = parts.replace("groups = [3]", "groups = [2]").replace("practice = 1\n", "");
+    let parts = parts.replace("reference = [\"c\", \"d\"]\n", "").replace("repeats = 2", "repeats = 1");
+    let path = plan_file(folder.path(), &parts);
+    let mut harness = author();
+    open(&mut harness, &path);
+    start(&mut harness, studies::START);
+    // Consent and instructions.
+    keys(&mut harness, &[Key::Enter, Key::Enter]);
+    // Five textures: each is felt by its letter, and the last three go into the second group.
+    keys(&mut harness, &[Key::A, Key::Num1, Key::B, Key::Num1]);
+    keys(&mut harness, &[Key::ArrowRight, Key::Num2, Key::ArrowRight, Key::Num1, Key::Num0, Key::Num2]);
+    keys(&mut harness, &[Key::Enter]);
+    assert_eq!(session(&harness).counts().n_answered, 0, "one texture has no group");
+    keys(&mut harness, &[Key::E, Key::Num2, Key::Enter]);
+    answered(&mut harness, 1);
+    // Adjectives: the first one has the keyboard focus.
+    keys(&mut harness, &[Key::Enter, Key::Space, Key::Enter]);
+    answered(&mut harness, 2);
+    keys(&mut harness, &[Key::Enter]);
+    answered(&mut harness, 3);
+    // Two ratings of two textures: the first key places the mark in the middle.
+    keys(&mut harness, &[Key::Enter]);
+    for n in [4, 5] {
+        keys(&mut harness, &[Key::ArrowRight, Key::ArrowRight, Key::Tab, Key::End, Key::Enter]);
+        answered(&mut harness, n);
+    }
+    // A difference.
+    keys(&mut harness, &[Key::Enter, Key::A, Key::B]);
+    type_number(&mut harness, "2");
+    type_number(&mut harness, ",5");
+    keys(&mut harness, &[Key::Enter]);
+    answered(&mut harness, 6);
+    // A grade.
+    keys(&mut harness, &[Key::Enter, Key::A, Key::B, Key::Num4, Key::Enter]);
+    answered(&mut harness, 7);
+    assert_eq!(session(&harness).step(), Step::Done);
+    keys(&mut harness, &[Key::Enter]);
+    assert!(window(&harness).studies().running().is_none());
+    let log = load_log(&usual_log_folder(&path).join("p01.jsonl")).unwrap();
+    let given: Vec<Response> = log.record().answers.into_iter().map(|answer| answer.response).collect();
+    assert_eq!(
+        given,
+        [
+            Response::Groups(vec![0, 0, 1, 1, 1]),
+            Response::Votes(vec![true, false, false]),
+            Response::Votes(vec![false; 3]),
+            Response::Sliders(vec![51.0, 100.0]),
+            Response::Sliders(vec![51.0, 100.0]),
+            Response::Magnitude(2.5),
+            Response::Grade(4),
+        ]
+    );
+}
+
+#[test]
+fn escape_asks_before_it_leaves() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = author();
+    open(&mut harness, &plan_file(folder.path(), SIMILARITY));
+    start(&mut harness, studies::START);
+    keys(&mut harness, &[Key::Enter, Key::Enter, Key::A, Key::B, Key::Num3, Key::Escape]);
+    assert!(says(&harness, studies::LEAVE_TITLE) && says(&harness, studies::LEAVE_SAVED));
+    keys(&mut harness, &[Key::Num5, Key::Escape, Key::Enter]);
+    // What was entered before is still there.
+    answered(&mut harness, 1);
+    assert!(!says(&harness, studies::LEAVE_TITLE));
+    keys(&mut harness, &[Key::Escape]);
+    harness.get_by_label(studies::LEAVE_NOW).click();
+    harness.run_steps(2);
+    assert!(window(&harness).studies().running().is_none());
+    wait(&mut harness, "the sessions are listed", |h| !window(h).studies().is_busy());
+    assert!(window(&harness).studies().sessions()[0].can_resume);
+}
+
+/// A letter starts a stimulus, and so does a button; the automatic stroke makes it audible.
+#[test]
+fn a_stimulus_is_audible_only_while_it_is_selected() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = author();
+    open(&mut harness, &plan_file(folder.path(), SIMILARITY));
+    start(&mut harness, studies::START);
+    keys(&mut harness, &[Key::Enter, Key::Enter, Key::Space]);
+    wait(&mut harness, "the stroke runs", |h| window(h).session().touch().contact.force_n > 0.0);
+    assert!(window(&harness).session().scope().rms(0.2) < 1e-6, "nothing is selected");
+    keys(&mut harness, &[Key::A]);
+    wait(&mut harness, "it sounds", |h| window(h).session().scope().rms(0.2) > 1e-4);
+    keys(&mut harness, &[Key::A]);
+    wait(&mut harness, "it is silent", |h| window(h).session().scope().rms(0.2) < 1e-6);
+}

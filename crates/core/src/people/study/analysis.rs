@@ -1,0 +1,35 @@
+//! Analysis of the answers of a study, one file for each design.
+//!
+//! Input: a part of the plan and the records of all participants. Output: the tables that scaling and space building read
+//! ([`sorting`], [`rating`]), counts ([`discrimination`], [`abx`]), or [`Cells`]: one value for each participant and
+//! condition, the mean over repeats, or nothing where an answer is missing. Tests of hypotheses begin with these cells.
+//! Answers of practice trials are left out.
+
+pub mod abx;
+pub mod anchors;
+mod cells;
+pub mod discrimination;
+pub mod dissimilarity;
+pub mod likert;
+pub mod mushra;
+pub mod rating;
+pub mod relevance;
+pub mod similarity;
+pub mod sorting;
+pub mod thresholds;
+
+pub use cells::Cells;
+
+use crate::people::study::answer::{Answer, Record};
+use crate::people::study::plan::Part;
+
+/// Answers of a part that count, with the record of their participant.
+fn scored<'a>(records: &'a [Record], part: &'a Part) -> impl Iterator<Item = (&'a Record, &'a Answer)> {
+    records.iter().flat_map(move |record| {
+        let of_part = move |answer: &&Answer| answer.trial.part == part.id && !answer.trial.is_practice;
+        record.answers.iter().filter(of_part).map(move |answer| (record, answer))
+    })
+}
+
+#[cfg(test)]
+mod tests;

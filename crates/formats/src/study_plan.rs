@@ -1,0 +1,167 @@
+//! Plans of studies, as TOML files.
+//!
+//! A plan has keys of the whole study, a table `[[stimulus]]` for each thing that is presented, and a table `[[part]]` for each
+//! design, in the order of the study:
+//!
+//! ```
+//! let plan = shagreen_formats::study_plan::read_study_plan(br#"
+//! format = "shagreen-study"
+//! version = "1.0"
+//! name = "Two textures on one scale"
+//! seed = 1                        # of all orders and of the noise in stimuli
+//!
+//! [[stimulus]]
+//! id = "cork"                     # in tables; participants do not see it
+//! texture = "cork"                # id in the library, or: profile = "A"
+//! variant = "original"            # original, authored, coded (with kbps) or reconstructed (with window_mm)
+//!
+//! [[stimulus]]
+//! id = "felt"
+//! texture = "felt"
+//!
+//! [[part]]
+//! id = "rating"
+//! design = "rating"
+//! stimuli = ["cork", "felt"]      # all, if the key is missing
+//! scales = ["rough-smooth"]       # or: questionnaire = "vrst-2023"
+//! slider_mm = 127
+//! "#)?;
+//! assert_eq!(plan.parts[0].design.id(), "rating");
+//! # Ok::<(), shagreen_formats::study_plan::StudyPlanError>(())
+//! ```
+//!
+//! `assets/studies` has a commented plan for each published experiment ([`study_templates`]). An unknown key is an error,
+//! because its value would have no effect. All problems are reported at once, each with its line and key.
+
+mod keys;
+mod lines;
+mod read;
+mod templates;
+mod wire;
+mod write;
+
+use shagreen_core::people::study::plan::{Plan, Problem, problems};
+use shagreen_core::words::counted;
+
+use crate::text_limits::TooLong;
+use crate::toml_text;
+
+pub use templates::{StudyTemplate, study_template, study_templates};
+pub use write::write_study_plan;
+
+use self::lines::Lines;
+use self::read::{Draft, draft};
+use self::wire::{HeaderV1, PlanV1};
+
+/// Value of the `format` key.
+pub const FORMAT: &str = "shagreen-study";
+/// Version that this program reads and writes.
+pub const VERSION: &str = "1.0";
+
+/// Number of problems that are reported; of more, the first ones.
+const MOST_PROBLEMS: usize = 100;
+
+/// Why bytes are not a plan that can be run.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyPlanError {
+    /// The file is not UTF-8.
+    #[error("the plan is not valid UTF-8 at byte {at}; save the file as UTF-8")]
+    NotText {
+        /// Offset of the first invalid byte, from zero.
+        at: usize,
+    },
+    /// Not TOML, or a key is missing, unknown or of the wrong type.
+    #[error("cannot read the plan: {reason}; correct that line of the file")]
+    Damaged {
+        /// The parser's message with its line number, on one line.
+        reason: String,
+    },
+    /// The file has another format.
+    #[error(
+        "the file is not a plan of a study: `format` is \"{found}\", not \"{FORMAT}\"; choose another file"
+    )]
+    Format {
+        /// Value of the `format` key.
+        found: String,
+    },
+    /// The file has an unsupported version.
+    #[error(
+        "the plan has version {found}, but this program reads version {VERSION}; use a newer version of Shagreen"
+    )]
+    Version {
+        /// Value of the `version` key.
+        found: String,
+    },
+    /// A text is too long.
+    #[error(transparent)]
+    TooLong(#[from] TooLong),
+    /// The plan cannot be run.
+    #[error("the plan has {}: {}", counted(.0.len(), "problem"), listed(.0))]
+    Problems(Vec<PlanProblem>),
+}
+
+/// Something that is wrong with a plan, with its place in the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanProblem {
+    /// Line of the key or of its table, from one, if the file has either.
+    pub line: Option<usize>,
+    /// The key, such as `part[2].pairs`: the second `[[part]]`, its key `pairs`. Entries count from 1.
+    pub key: String,
+    /// What is wrong and what to do.
+    pub text: String,
+}
+
+impl std::fmt::Display for PlanProblem {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "line {line}, {}: {}", self.key, self.text),
+            None => write!(f, "{}: {}", self.key, self.text),
+        }
+    }
+}
+
+fn listed(problems: &[PlanProblem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+/// Reads a plan that can be run.
+///
+/// # Errors
+/// See [`StudyPlanError`].
+pub fn read_study_plan(bytes: &[u8]) -> Result<Plan, StudyPlanError> {
+    let text =
+        std::str::from_utf8(bytes).map_err(|error| StudyPlanError::NotText { at: error.valid_up_to() })?;
+    let damaged =
+        |error: toml::de::Error| StudyPlanError::Damaged { reason: toml_text::reason(&error, text) };
+    // The header is checked first: in a newer version, unknown keys are not an error.
+    let header: HeaderV1 = toml::from_str(text).map_err(damaged)?;
+    if header.format != FORMAT {
+        return Err(StudyPlanError::Format { found: header.format });
+    }
+    if header.version != VERSION {
+        return Err(StudyPlanError::Version { found: header.version });
+    }
+    let wire: PlanV1 = toml::from_str(text).map_err(damaged)?;
+    wire.check_lengths()?;
+    let Draft { plan, problems: of_keys } = draft(wire);
+    // A problem of the keys of a table hides those that follow from it.
+    let is_new = |key: &str| of_keys.iter().all(|of| of.key != key && !of.hides(key));
+    let further: Vec<Problem> = problems(&plan).into_iter().filter(|of| is_new(&of.key)).collect();
+    let of_keys = of_keys.into_iter().map(|of| Problem { key: of.key, text: of.text });
+    let all: Vec<Problem> = of_keys.chain(further).take(MOST_PROBLEMS).collect();
+    if all.is_empty() {
+        return Ok(plan);
+    }
+    Err(StudyPlanError::Problems(located_problems(text, all)))
+}
+
+/// Problems of a plan with the lines of their keys in the text of its file.
+pub fn located_problems(text: &str, problems: Vec<Problem>) -> Vec<PlanProblem> {
+    let lines = Lines::of(text);
+    let located = |Problem { key, text }: Problem| PlanProblem { line: lines.line_of(&key), key, text };
+    problems.into_iter().map(located).collect()
+}
+
+#[cfg(test)]
+mod tests;
