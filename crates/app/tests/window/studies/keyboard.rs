@@ -1,5 +1,7 @@
 //! A session by keys alone.
 
+use std::time::{Duration, Instant};
+
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
@@ -119,6 +121,10 @@ fn a_stimulus_is_audible_only_while_it_is_selected() {
     start(&mut harness, studies::START);
     keys(&mut harness, &[Key::Enter, Key::Enter, Key::Space]);
     wait(&mut harness, "the stroke runs", |h| window(h).session().touch().contact.force_n > 0.0);
+    // The texture of the project may fade out for a moment.
+    wait(&mut harness, "nothing is selected", |h| window(h).session().scope().rms(0.2) < 1e-6);
+    let since = Instant::now();
+    wait(&mut harness, "some time passes", |_| since.elapsed() > Duration::from_millis(300));
     assert!(window(&harness).session().scope().rms(0.2) < 1e-6, "nothing is selected");
     keys(&mut harness, &[Key::A]);
     wait(&mut harness, "it sounds", |h| window(h).session().scope().rms(0.2) > 1e-4);
