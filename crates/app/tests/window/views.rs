@@ -256,6 +256,8 @@ fn sheets(harness: &mut Author, look: &mut Look<'_>) {
         carry_out(harness, command);
         // Lists of outputs, pens and folders come from the background.
         harness.run_steps(4);
+        wait(harness, "the axes are read", |h| !says(h, strings::axes::LOADING));
+        harness.run_steps(4);
         show(harness, look, &format!("sheet {name}"), Kind::Sheet);
         carry_out(harness, Command::CloseSheet);
     }
