@@ -26,8 +26,8 @@ use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 /// library file. `render`, `play` and the window use it like any other texture.
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Position in the space, as with `render --at`, and the position along the stroke at which it is reached, in mm (or in s
-    /// with --along time): 30,70@0. Give this option at least twice, first with @0.
+    /// Position in the space, as with `render --at`, and its place along the stroke, in mm (or in s with --along time):
+    /// 30,70@0. Give this option at least twice, first with @0.
     #[arg(long = "stop", value_name = "POINT@X", value_parser = parse_stop, required = true, allow_hyphen_values = true)]
     stops: Vec<(PointArg, f64)>,
     /// Quantity along the stroke: the distance that the tip has traveled, or the time in contact.

@@ -9,14 +9,17 @@
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-use std::time::Duration;
-use std::{env, fs, thread};
+use std::{env, fs};
 
 use shagreen_core::maths::rng::Random;
 use shagreen_formats::atomic;
 use shagreen_formats::library::{read_library, write_library};
 use shagreen_formats::starter::{starter_bytes, starter_library};
+
+use self::killed::{itself, kill_after};
+
+#[path = "support/killed.rs"]
+mod killed;
 
 /// Environment variable for the writing method; if it is set, this program is the writer.
 const HOW: &str = "SHAGREEN_CRASH_WRITER";
@@ -54,21 +57,11 @@ fn writer() {
 }
 
 /// Starts a writer, waits for its first file, and kills it after `micros` microseconds.
-fn kill_after(how: &str, path: &Path, micros: u64) {
-    let mut child = Command::new(env::current_exe().unwrap())
-        .args(["writer", "--exact", "--nocapture"])
-        .env(HOW, how)
-        .env(FILE, path)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
+fn kill_writer(how: &str, path: &Path, micros: u64) {
+    let mut child = itself("writer").env(HOW, how).env(FILE, path).spawn().unwrap();
     let lines = BufReader::new(child.stdout.take().unwrap()).lines();
     assert!(lines.map(Result::unwrap).any(|line| line == READY), "the writer did not report its first file");
-    thread::sleep(Duration::from_micros(micros));
-    // SIGKILL stops the writer at once.
-    child.kill().unwrap();
-    child.wait().unwrap();
+    kill_after(child, micros);
 }
 
 /// Kills `n` writers; returns how often the file was neither library, and how many other files remained.
@@ -79,7 +72,7 @@ fn kills(how: &str, n: u32) -> (u32, usize) {
     let mut random = Random::new(7);
     let mut torn = 0;
     for _ in 0..n {
-        kill_after(how, &path, random.next_u64() % LONGEST_MICROS);
+        kill_writer(how, &path, random.next_u64() % LONGEST_MICROS);
         let found = fs::read(&path).unwrap();
         let whole = libraries.contains(&found);
         assert_eq!(whole, read_library(&found).is_ok(), "{} bytes", found.len());

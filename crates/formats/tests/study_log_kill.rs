@@ -9,9 +9,7 @@
 
 use std::io::{BufRead as _, BufReader, Write as _};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
 use std::sync::Arc;
-use std::time::Duration;
 use std::{env, thread};
 
 use shagreen_core::maths::rng::Random;
@@ -21,6 +19,11 @@ use shagreen_core::people::study::simulated::{Observers, SimulatedParticipant, W
 use shagreen_formats::study_log::{LogHeader, StudyLog, TimedEvent};
 use shagreen_formats::study_plan::{read_study_plan, study_template};
 
+use self::killed::{itself, kill_after};
+
+#[path = "support/killed.rs"]
+mod killed;
+
 /// Environment variable for the path of the log; if it is set, this program is the session.
 const FILE: &str = "SHAGREEN_STUDY_LOG";
 /// Word before the number of answers that are saved.
@@ -28,7 +31,7 @@ const SAVED: &str = "saved";
 /// Maximum lifetime of a session after its start, in µs.
 const LONGEST_MICROS: u64 = 60_000;
 /// Number of killed sessions.
-const KILLS: u32 = 30;
+const KILLS: u32 = 200;
 
 fn plan_text() -> &'static str {
     study_template("authored-dissimilarity").unwrap().text
@@ -83,14 +86,8 @@ fn n_answered(progress: &Progress) -> usize {
 }
 
 /// Starts a session and kills it after `micros` microseconds; returns the last number of answers that it reported.
-fn kill_after(path: &Path, micros: u64) -> usize {
-    let mut child = Command::new(env::current_exe().unwrap())
-        .args(["session", "--exact", "--nocapture"])
-        .env(FILE, path)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
+fn kill_session(path: &Path, micros: u64) -> usize {
+    let mut child = itself("session").env(FILE, path).spawn().unwrap();
     let lines = BufReader::new(child.stdout.take().unwrap()).lines();
     let reader = thread::spawn(move || {
         let mut last = 0;
@@ -100,10 +97,7 @@ fn kill_after(path: &Path, micros: u64) -> usize {
         }
         last
     });
-    thread::sleep(Duration::from_micros(micros));
-    // SIGKILL stops the session at once.
-    child.kill().unwrap();
-    child.wait().unwrap();
+    kill_after(child, micros);
     reader.join().unwrap()
 }
 
@@ -118,7 +112,7 @@ fn a_killed_session_loses_nothing_that_was_saved() {
         let path = folder.path().join(format!("{}.jsonl", kill / 10));
         let before =
             if path.exists() { StudyLog::resume(&path).unwrap().1.record().answers.len() } else { 0 };
-        let reported = kill_after(&path, random.next_u64() % LONGEST_MICROS);
+        let reported = kill_session(&path, random.next_u64() % LONGEST_MICROS);
         if !path.exists() {
             continue;
         }

@@ -15,7 +15,7 @@ use shagreen_device::synth::drive::{DriveConfig, Driven};
 use crate::state::background::in_background;
 use crate::strings;
 
-/// Duration of the noise, in s, and the time after which it is played again, which is before it ends.
+/// Duration of the noise, in s. It starts again after a shorter time, so that it never pauses.
 const NOISE_SECS: f64 = 30.0;
 const AGAIN: Duration = Duration::from_secs(25);
 /// Sample rate of the textures of this output, which plays none, in Hz.

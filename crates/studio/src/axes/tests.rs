@@ -130,28 +130,13 @@ fn a_texture_without_an_axis_has_no_position() {
 #[test]
 fn a_placed_library_is_written_and_read() {
     let library = simulated();
+    let six =
+        named(&["hard-soft", "flat-bumpy", "rough-smooth", "centroid", "speed exponent", "force exponent"]);
     for (axes, stated) in [
         (named(&["centroid"]), Some(named(&["centroid"]))),
         (named(&["sticky-slippery", "tap-frequency"]), Some(named(&["sticky-slippery", "tap frequency"]))),
         (named(&["attribute:rough-smooth", "attribute:hard-soft"]), None),
-        (
-            named(&[
-                "hard-soft",
-                "flat-bumpy",
-                "rough-smooth",
-                "centroid",
-                "speed exponent",
-                "force exponent",
-            ]),
-            Some(named(&[
-                "hard-soft",
-                "flat-bumpy",
-                "rough-smooth",
-                "centroid",
-                "speed exponent",
-                "force exponent",
-            ])),
-        ),
+        (six.clone(), Some(six)),
     ] {
         let placed = placed_on(&library, &axes).unwrap();
         assert_eq!(placed.axes, stated);

@@ -129,7 +129,7 @@ pub(super) fn number_areas(ui: &Ui, axes: Axes, panel: &Panel<'_>, tool: &PathTo
     points.map(|(i, point)| number_of_point(ui, i + 1, axes.ui_from_space(*point)).1).collect()
 }
 
-/// Number of a path point at `pos`, and the area in which it is drawn.
+/// Number of a path point at `pos`, and its area on the screen.
 fn number_of_point(ui: &Ui, number: usize, pos: Pos2) -> (Arc<Galley>, Rect) {
     let font = FontId::proportional(10.5);
     let galley = ui.painter().layout_no_wrap(number.to_string(), font, Color32::PLACEHOLDER);

@@ -115,7 +115,7 @@ impl PositionEstimate {
     }
 
     /// The estimate with the local mean on every axis without an estimate. `complete` returns a point with coordinates on
-    /// all axes from those that are told.
+    /// all axes, from the estimated ones.
     pub(crate) fn completed(self, complete: impl FnOnce(&[Option<f64>]) -> SpacePoint) -> Self {
         let is_told = |axis: &Estimate| *axis != OPEN;
         let told: Vec<Option<f64>> =

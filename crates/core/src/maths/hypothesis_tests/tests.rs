@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 
+use super::t_tests::TTest;
+
 mod distributions;
 mod groups;
 mod samples;
@@ -51,6 +53,31 @@ fn check(got: f64, expected: &Value, what: &str) {
     let expected = number(expected);
     let tolerance = TOLERANCE * expected.abs().max(1.0);
     assert!(is_near(got, expected, tolerance), "{what}: got {got}, expected {expected}");
+}
+
+/// Compares a t test; `d` is the name of its standardized difference.
+fn check_t(test: &TTest, expected: &Value, d: &str, what: &str) {
+    check(test.dof, &expected["dof"], what);
+    match test.ratio {
+        Some(ratio) => {
+            check(ratio.t, &expected["t"], what);
+            check(ratio.p_value, &expected["p"], what);
+        }
+        None => assert!(expected["t"].is_null() && expected["p"].is_null(), "{what}"),
+    }
+    match test.effect {
+        Some(effect) => {
+            check(effect.d, &expected[d], what);
+            check(effect.hedges_g, &expected["hedges_g"], what);
+        }
+        None => assert!(expected[d].is_null(), "{what}"),
+    }
+}
+
+/// Compares the interval of a t test of two means.
+fn check_interval(test: &TTest, expected: &Value, spread: f64, what: &str) {
+    check_unit(test.interval.low, &expected["low"], spread, what);
+    check_unit(test.interval.high, &expected["high"], spread, what);
 }
 
 /// Compares a number in the unit of the values, or a power of it. Its tolerance is relative to their `spread`, to the

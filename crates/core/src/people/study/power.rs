@@ -1,7 +1,7 @@
 //! Number of participants that a study needs, from simulated repetitions of it.
 //!
 //! A decision, such as "the two conditions differ", is made in many simulated studies. The power at a number of participants is
-//! the share of the studies in which it is right. This depends on what the simulated participants are: state them beside it.
+//! the share of these studies with a right decision. It depends on the simulated participants, so state their properties with it.
 
 use crate::maths::rng::derive_seed;
 

@@ -22,7 +22,7 @@ pub(super) fn analyze(part: &Part, records: &[Record]) -> Analyzed {
     let adjusted = holm(&by_chance);
     let n_told = adjusted.iter().filter(|p| **p < SIGNIFICANT).count();
     let finding = format!(
-        "{n_told} of {} are told apart (more right answers than by guessing, p < 0.05, one-sided, adjusted by Holm for the number of pairs).",
+        "{n_told} of {} are distinguished (more right answers than by guessing, p < {SIGNIFICANT}, one-sided, adjusted by Holm for the number of pairs).",
         counted(pairs.len(), "pair")
     );
     let by_name: Map<String, Value> =

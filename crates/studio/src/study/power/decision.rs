@@ -98,7 +98,7 @@ impl<'a> Decision<'a> {
                 statements.first().map_or("", |of| of.id.as_str())
             ),
             Design::Abx { pairs } => format!(
-                "{} is told apart (more right answers than by guessing, p < {SIGNIFICANT}).",
+                "The pair {} is distinguished (more right answers than by guessing, p < {SIGNIFICANT}).",
                 pairs.first().map_or_else(String::new, Comparison::name)
             ),
             Design::Mushra { pages } => format!(

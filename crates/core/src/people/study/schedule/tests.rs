@@ -99,20 +99,22 @@ fn conditions_are_balanced_within_each_prompt() {
     assert!(first.len() == 15 && first.values().all(|n| *n == 2), "{first:?}");
 }
 
+/// Names of the pairs of ABX trials.
+fn matched_pairs(trials: &[Trial]) -> BTreeSet<String> {
+    let name = |trial: &Trial| match &trial.task {
+        Task::Match { pair, .. } => pair.name(),
+        _ => String::new(),
+    };
+    trials.iter().map(name).collect()
+}
+
 #[test]
 fn blocks_finish_a_repeat_before_the_next() {
     let design = Design::Abx { pairs: coded_pairs() };
     for order in [Order::Listed, Order::ShuffledBlocks, Order::LatinSquare] {
         let plan = plan_of(vec![Part { n_repeats: 4, order, ..part("a", design.clone()) }]);
         for block in trials_of(&plan, 2).chunks(3) {
-            let pairs: BTreeSet<String> = block
-                .iter()
-                .map(|trial| match &trial.task {
-                    Task::Match { pair, .. } => pair.name(),
-                    _ => String::new(),
-                })
-                .collect();
-            assert_eq!(pairs.len(), 3);
+            assert_eq!(matched_pairs(block).len(), 3);
         }
     }
 }
@@ -123,14 +125,7 @@ fn practice_comes_first_and_repeats_only_what_it_must() {
     let all = trials_of(&plan, 1);
     assert_eq!(all.len(), 8);
     assert!(all[..5].iter().all(|trial| trial.is_practice) && !all[5].is_practice);
-    let pairs: BTreeSet<String> = all[..3]
-        .iter()
-        .map(|trial| match &trial.task {
-            Task::Match { pair, .. } => pair.name(),
-            _ => String::new(),
-        })
-        .collect();
-    assert_eq!(pairs.len(), 3);
+    assert_eq!(matched_pairs(&all[..3]).len(), 3);
 }
 
 #[test]
