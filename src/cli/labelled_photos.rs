@@ -25,7 +25,7 @@ use shagreen_studio::file;
 use shagreen_studio::parallel::in_parallel;
 
 /// Version of the features. Increase it when views, variations or the extracted features change.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 /// Number of photos after which the extracted features are saved.
 const N_AT_ONCE: usize = 100;
 

@@ -46,12 +46,13 @@ pub(crate) struct LabelledArgs {
     /// trained on --drawn materials.
     #[arg(long, value_name = "MODEL", requires = "photos", conflicts_with_all = ["drawn", "epochs", "patience", "heads"])]
     drawn_heads: Option<PathBuf>,
-    /// Contributions of three heads to the hardness: ridge regression, class probabilities and small networks.
-    #[arg(long, value_name = "R,C,N", default_value = "1,1,1", requires = "photos", value_parser = parse_weights)]
+    /// Contributions of the heads to the hardness: ridge regression, class probabilities, small networks and kernel
+    /// regression. Without the fourth number, there is no kernel regression.
+    #[arg(long, value_name = "R,C,N,K", default_value = "1,1,1,3", requires = "photos", value_parser = parse_weights)]
     head_weights: HeadWeights,
     /// Contribution of the class probabilities to the roughness, 0 to 1. The rest is that of the heads trained on drawn
-    /// materials.
-    #[arg(long, value_name = "SHARE", default_value_t = 0.7, requires = "photos")]
+    /// materials. For photos of fewer than 224 pixels, the class probabilities count alone.
+    #[arg(long, value_name = "SHARE", default_value_t = 0.5, requires = "photos")]
     roughness_of_classes: f64,
     /// Penalty of the ridge regression, for each row of features; above 0.
     #[arg(long, value_name = "P", default_value_t = 1.28, requires = "photos")]
@@ -90,11 +91,15 @@ enum CalibrateOn {
 
 /// Parses three weights that are separated by commas.
 fn parse_weights(text: &str) -> Result<HeadWeights, String> {
-    let wrong = || "it must be three numbers of 0 or more, not all 0, such as 1,1,1".to_owned();
+    let wrong = || "it must be three or four numbers of 0 or more, not all 0, such as 1,1,1,3".to_owned();
     let numbers = text.split(',').map(|number| number.trim().parse::<f64>());
     let numbers = numbers.collect::<Result<Vec<f64>, _>>().map_err(|_| wrong())?;
-    let [ridge, classes, network] = numbers[..] else { return Err(wrong()) };
-    Some(HeadWeights { ridge, classes, network }).filter(HeadWeights::is_sound).ok_or_else(wrong)
+    let (ridge, classes, network, kernel) = match numbers[..] {
+        [ridge, classes, network] => (ridge, classes, network, 0.0),
+        [ridge, classes, network, kernel] => (ridge, classes, network, kernel),
+        _ => return Err(wrong()),
+    };
+    Some(HeadWeights { ridge, classes, network, kernel }).filter(HeadWeights::is_sound).ok_or_else(wrong)
 }
 
 /// What the training on labelled photos needs of the other options.
@@ -173,8 +178,8 @@ impl LabelledArgs {
         let rough = set
             .photos
             .iter()
-            .map(|photo| drawn_roughness(&drawn, &photo.features.early))
-            .collect::<Result<Vec<Estimate>, _>>()?;
+            .map(|photo| drawn_roughness(&drawn, &photo.features))
+            .collect::<Result<Vec<Option<Estimate>>, _>>()?;
         let judged = self.judged(&set, &rough, &config)?;
         let progress = Progress::endless("training on all photos");
         let drawn_materials = drawn.learned_from().to_owned();
@@ -211,7 +216,7 @@ impl LabelledArgs {
     fn judged(
         &self,
         set: &PhotoSet,
-        rough: &[Estimate],
+        rough: &[Option<Estimate>],
         config: &PhotoConfig,
     ) -> anyhow::Result<Vec<JudgedPhoto>> {
         let n_folds = |kind| match kind {
@@ -332,10 +337,12 @@ mod tests {
     use shagreen_formats::photo_table::read_photo_table;
 
     #[test]
-    fn weights_are_three_numbers() {
+    fn weights_are_three_or_four_numbers() {
         let weights = parse_weights("2, 1,0.5").unwrap();
         assert_eq!([weights.ridge, weights.classes, weights.network], [2.0, 1.0, 0.5]);
-        for wrong in ["1,1", "1,1,1,1", "1,x,1,1", "a", "", "0,0,0", "1,-1,1", "1,inf,1"] {
+        assert_eq!(weights.kernel, 0.0);
+        assert_eq!(parse_weights("0,0,0,2").unwrap().kernel, 2.0);
+        for wrong in ["1,1", "1,1,1,1,1", "1,x,1,1", "a", "", "0,0,0", "1,-1,1", "1,inf,1"] {
             assert!(parse_weights(wrong).is_err(), "{wrong}");
         }
     }

@@ -154,7 +154,7 @@ const CASES: [Case; 8] = [
         files: &["a.acf"],
     },
     Case {
-        arguments: "study run abx.toml --simulated 2 --seed {} --out .",
+        arguments: "study run abx.toml --simulated 2 --seed {} --out . --replace",
         variants: ["1", "2"],
         files: &["simulated-01.jsonl", "simulated-02.jsonl"],
     },

@@ -20,6 +20,8 @@ mod errors;
 mod evaluate;
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 mod faults;
+#[cfg(target_os = "linux")]
+mod full_disk;
 mod guide;
 mod height_map;
 mod hostile;

@@ -117,9 +117,27 @@ fn ten_textures_of_a_library_are_a_study() {
     assert!(new["minutes"].as_f64().unwrap() < 10.0, "{new}");
     let said = bench.run("study preview ten.toml --trials");
     assert!(said.code == 0 && said.stdout.contains("1. practice: rate ("), "{said:?}");
-    // The logs lie beside the plan.
+    assert!(said.stdout.contains("an answer needs a stroke of 20 mm over each stimulus"), "{said:?}");
+    // The logs lie beside the plan, but not among those of people.
     bench.json("study run ten.toml --simulated 2");
-    assert!(bench.path("ten-logs/simulated-02.jsonl").exists());
+    assert!(bench.path("ten-logs-simulated/simulated-02.jsonl").exists() && !bench.path("ten-logs").exists());
+}
+
+#[test]
+fn simulated_logs_are_replaced_on_request_only() {
+    let bench = Bench::new();
+    bench.json("study new abx --out abx.toml");
+    bench.json("study run abx.toml --simulated 2 --seed 1");
+    let log = || fs::read(bench.path("abx-logs-simulated/simulated-01.jsonl")).unwrap();
+    let first = log();
+    bench.fails(
+        "study run abx.toml --simulated 2 --seed 2",
+        1,
+        &["has logs of simulated participants", "--replace", "simulated-01.jsonl"],
+    );
+    assert_eq!(log(), first);
+    bench.json("study run abx.toml --simulated 2 --seed 2 --replace");
+    assert_ne!(log(), first);
 }
 
 #[test]
@@ -161,6 +179,21 @@ fn problems_of_a_plan_are_reported_at_once_with_their_lines() {
         &["no texture \"mfd\"", "stimulus[3].texture", "missing.toml"],
     );
     bench.fails("study run missing.toml --simulated 2", 1, &["no texture \"mfd\""]);
+    // Keys, their meaning and textures in one list.
+    let all = text
+        .replacen("texture = \"mdf\"", "texture = \"mfd\"", 1)
+        .replace("repeats = 2", "repeat = 2")
+        .replace("low_anchor = \"glass\"", "low_anchor = \"gloss\"");
+    bench.write("all.toml", all);
+    let words = [
+        "the plan has 3 problems",
+        "there is no texture \"mfd\"; did you mean mdf?",
+        "part[1].repeat: the key is unknown; did you mean repeats?",
+        "no stimulus \"gloss\"",
+    ];
+    for command in ["study preview all.toml", "study run all.toml --simulated 2"] {
+        bench.fails(command, 1, &words);
+    }
     bench.fails("study preview none.toml", 1, &["no such file", "none.toml"]);
 }
 
@@ -185,11 +218,8 @@ fn people_and_simulated_participants_need_a_choice() {
     bench.json("study run plan.toml --simulated 3 --out logs");
     // The log of a person, with the answers of a simulated one.
     let log = fs::read_to_string(bench.path("logs/simulated-03.jsonl")).unwrap();
-    let person = log.replacen("\"simulated-03\"", "\"p01\"", 1).replacen(
-        "\"simulated\":true",
-        "\"simulated\":false",
-        1,
-    );
+    let person =
+        log.replace("\"simulated-03\"", "\"p01\"").replace("\"simulated\":true", "\"simulated\":false");
     bench.write("logs/p01.jsonl", person);
     fs::remove_file(bench.path("logs/simulated-03.jsonl")).unwrap();
     bench.fails(
@@ -223,7 +253,7 @@ fn damaged_logs_are_named_and_nothing_in_them_is_changed() {
     for words in [
         "warning: simulated-01.jsonl, line",
         "it is torn",
-        "simulated-02.jsonl, line 3: it is skipped",
+        "simulated-02.jsonl, line 4: it is skipped",
         "simulated-02.jsonl: the session is not complete",
     ] {
         assert!(said.stderr.contains(words), "{words}: {}", said.stderr);
@@ -238,6 +268,62 @@ fn damaged_logs_are_named_and_nothing_in_them_is_changed() {
         &["log of another study", "simulated-01.jsonl"],
     );
     bench.fails("study analyse logs/simulated-03.jsonl abx.toml", 1, &["abx.toml"]);
+}
+
+/// The answers count with the plan of the other logs, or with the plan file.
+#[test]
+fn a_log_without_its_first_line_is_recovered() {
+    let bench = Bench::new();
+    bench.json("study new anchor-rating --out plan.toml");
+    bench.json("study run plan.toml --simulated 3 --out logs");
+    let whole = bench.json("study analyse logs");
+    let text = fs::read_to_string(bench.path("logs/simulated-02.jsonl")).unwrap();
+    let lines: Vec<&str> = text.split_inclusive('\n').collect();
+    // The first line alone is no loss: there is a copy.
+    bench.write("logs/simulated-02.jsonl", ["\0\n", &lines[1..].concat()].concat());
+    assert_eq!(bench.json("study analyse logs")["results"], whole["results"]);
+    let beheaded = ["\0\n", "\0\n", &lines[2..].concat()].concat();
+    bench.write("logs/simulated-02.jsonl", &beheaded);
+    let said = bench.run("study analyse logs");
+    assert!(
+        said.stderr.contains("simulated-02.jsonl, line 1: it is damaged; the answers are read"),
+        "{said:?}"
+    );
+    assert_eq!(bench.json("study analyse logs")["results"], whole["results"]);
+    bench.write("alone/simulated-02.jsonl", &beheaded);
+    bench.fails("study analyse alone", 1, &["no log can be read", "--plan"]);
+    let report = bench.json("study analyse alone --plan plan.toml");
+    assert_eq!(report["n_participants"].as_u64(), Some(1));
+    assert_eq!(fs::read_to_string(bench.path("alone/simulated-02.jsonl")).unwrap(), beheaded);
+}
+
+#[test]
+fn the_preview_names_the_placeholder_of_the_consent_text() {
+    let bench = Bench::new();
+    bench.json("study new abx --out abx.toml");
+    assert_eq!(bench.json("study preview abx.toml")["consent_is_placeholder"].as_bool(), Some(true));
+    assert!(bench.run("study preview abx.toml").stdout.contains("replace `consent`"));
+    let text = fs::read_to_string(bench.path("abx.toml")).unwrap();
+    let own =
+        text.replace("Replace this text by the one that your ethics committee approved.", "I take part.");
+    bench.write("own.toml", own);
+    assert_eq!(bench.json("study preview own.toml")["consent_is_placeholder"].as_bool(), Some(false));
+}
+
+/// The table that the fit of a quality model reads.
+#[test]
+fn same_different_answers_become_a_table_of_pairs() {
+    let bench = Bench::new();
+    bench.json("study new same-different --out plan.toml");
+    bench.json("study run plan.toml --simulated 2 --out logs");
+    bench.json("study analyse logs --out report");
+    let pairs = fs::read_to_string(bench.path("report/pairs.csv")).unwrap();
+    let first = "part,reference,processed,reference_source,processed_source,variant,kbps,window_mm,simulated,participants,n_different,hits,n_same,false_alarms,hit_rate,false_alarm_rate,dprime,dprime_differencing,dprime_independent_observation,correction";
+    assert_eq!((pairs.lines().next(), pairs.lines().count()), (Some(first), 26));
+    bench.json("study new abx --out abx.toml");
+    bench.json("study run abx.toml --simulated 2 --out other");
+    bench.json("study analyse other --out abx-report");
+    assert!(!bench.path("abx-report/pairs.csv").exists());
 }
 
 #[test]

@@ -81,8 +81,8 @@ fn table_ui(ui: &mut Ui, name: &str, table: &Table) {
             ui.end_row();
             for (row, values) in &table.rows {
                 ui.add(Label::new(row).extend());
-                for value in values {
-                    number(ui, RichText::new(table.shown(*value)).monospace());
+                for (column, value) in values.iter().enumerate() {
+                    number(ui, RichText::new(table.shown(column, *value)).monospace());
                 }
                 ui.end_row();
             }

@@ -15,6 +15,7 @@ pub(crate) mod map_plot;
 pub(crate) mod motion;
 pub(crate) mod notice;
 pub(crate) mod plot;
+pub(crate) mod primary;
 pub(crate) mod scale;
 pub(crate) mod scroll_to_focus;
 pub(crate) mod sheet_frame;

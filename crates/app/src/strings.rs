@@ -300,7 +300,7 @@ pub fn solo(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::lies_at;
+    use super::{build, devices, document, export, import, lies_at, networks, stroke};
     use shagreen_core::space::SpacePoint;
 
     #[test]
@@ -312,5 +312,26 @@ mod tests {
         assert_eq!(lies_at(at, &poles, None, "human ratings"), "65.7, 58.8 (human ratings)");
         let further = lies_at(at.on(3).with(2, 43.2), &poles, None, "human ratings");
         assert_eq!(further, "Rough to smooth 66, Hard to soft 59, Dull to bright 43 (human ratings)");
+    }
+
+    /// A file name in an empty field would be taken for its value.
+    #[test]
+    fn example_file_names_say_that_they_are_examples() {
+        for hint in [
+            build::SAVE_HINT,
+            build::BLANK_HINT,
+            devices::PROFILE_HINT,
+            document::OPEN_HINT,
+            document::SAVE_HINT,
+            document::OTHER_LIBRARY_HINT,
+            export::HINT,
+            export::FOLDER_HINT,
+            import::SAVE_HINT,
+            networks::FILE_HINT,
+            stroke::SAVE_HINT,
+            stroke::OPEN_HINT,
+        ] {
+            assert!(hint.starts_with("e.g. "), "{hint}");
+        }
     }
 }

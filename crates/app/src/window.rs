@@ -69,6 +69,8 @@ use crate::window::status_bar::status_ui;
 use crate::window::tour::Tour;
 use crate::workspace::Workspace;
 
+/// Height of the status bar, in points.
+const STATUS_HEIGHT: f32 = 32.0;
 /// Interval between frames while the window is idle, so that the status bar stays current.
 const IDLE: std::time::Duration = std::time::Duration::from_secs(4);
 
@@ -300,7 +302,7 @@ impl Window {
         let panel = Panel::new(&self.project, &self.session, &self.compare, &self.pictures);
         let says_source = is_author && !self.pages.author.canvas.is_narrow;
         Side::bottom("status")
-            .exact_size(32.0)
+            .exact_size(STATUS_HEIGHT)
             .frame(bar(2))
             .show(ui, |ui| commands.extend(status_ui(ui, &panel, says_source)));
         if is_author {

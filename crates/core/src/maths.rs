@@ -7,6 +7,7 @@ pub mod class_distance;
 pub mod gaussian_process;
 pub mod hypothesis_tests;
 pub mod isotonic;
+pub mod kernel_ridge;
 pub mod least_squares;
 pub mod minimize;
 pub mod multinomial;

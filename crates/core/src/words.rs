@@ -1,7 +1,12 @@
-//! Counts, rounded numbers and lists of names for messages.
+//! Counts, rounded numbers, lists of names, and similar names for messages.
 
 /// Number of names that a message lists before it counts the rest.
 const N_NAMED: usize = 3;
+
+/// Largest number of suggestions.
+const MOST_SUGGESTED: usize = 3;
+/// Longest name for which similar ones are searched, in bytes: the search takes time in proportion to it.
+const LONGEST_SOUGHT: usize = 100;
 
 /// Count followed by `noun`, in the plural unless the count is one: `1 texture`, `2 textures`.
 pub fn counted(n: usize, noun: &str) -> String {
@@ -24,6 +29,23 @@ pub fn two_digits(value: f64) -> String {
     format!("{:.0}", (value / step).round() * step)
 }
 
+/// Returns up to three of these names that are similar to `wanted`, the most similar first.
+pub fn near<'a>(names: impl IntoIterator<Item = &'a str>, wanted: &str) -> Vec<&'a str> {
+    if wanted.len() > LONGEST_SOUGHT {
+        return Vec::new();
+    }
+    let wanted = wanted.to_lowercase();
+    let similar = |name: &'a str| {
+        let distance = strsim::levenshtein(&wanted, &name.to_lowercase());
+        let is_part = wanted.len() > 2 && name.contains(&wanted);
+        let is_near = distance <= 1 + wanted.chars().count() / 3;
+        (is_part || is_near).then_some((if is_part { 0 } else { distance }, name))
+    };
+    let mut near: Vec<(usize, &str)> = names.into_iter().filter_map(similar).collect();
+    near.sort_unstable();
+    near.into_iter().take(MOST_SUGGESTED).map(|(_, name)| name).collect()
+}
+
 /// First three names, followed by the number of remaining names.
 pub(crate) fn listed<S: AsRef<str>>(names: &[S]) -> String {
     let named: Vec<&str> = names.iter().take(N_NAMED).map(AsRef::as_ref).collect();
@@ -35,7 +57,7 @@ pub(crate) fn listed<S: AsRef<str>>(names: &[S]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{counted, listed, two_digits};
+    use super::{counted, listed, near, two_digits};
 
     #[test]
     fn two_digits_are_kept() {
@@ -52,6 +74,14 @@ mod tests {
         ] {
             assert_eq!(two_digits(value), text, "{value}");
         }
+    }
+
+    #[test]
+    fn near_names_are_offered_nearest_first() {
+        assert_eq!(near(["rough-smooth", "hard-soft"], "Rough-Smoth"), ["rough-smooth"]);
+        assert_eq!(near(["flat-rubber", "cork", "corks"], "cork"), ["cork", "corks"]);
+        assert_eq!(near(["flat-rubber"], "rubber"), ["flat-rubber"], "a part of a name");
+        assert!(near(["cork"], "zzzzzzzz").is_empty() && near(["cork"], &"cork".repeat(50)).is_empty());
     }
 
     #[test]

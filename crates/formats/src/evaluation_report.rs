@@ -174,6 +174,7 @@ fn methods(measured: &LeaveOneOut) -> Figure {
         columns: columns.map(str::to_owned).to_vec(),
         rows: measured.methods.iter().map(row).collect(),
         decimals: 2,
+        n_counts: 0,
         source: String::new(),
     })
 }

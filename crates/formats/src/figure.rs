@@ -135,6 +135,8 @@ pub struct Table {
     pub rows: Vec<(String, Vec<Option<f64>>)>,
     /// Number of significant decimals.
     pub decimals: usize,
+    /// Number of last columns that are counts, shown without decimals.
+    pub n_counts: usize,
     /// Source of the data, see [`Chart::source`].
     pub source: String,
 }
@@ -215,10 +217,12 @@ impl Figure {
 }
 
 impl Table {
-    /// Formats a number with [`Table::decimals`] decimals; a missing number is an en dash.
-    pub fn shown(&self, value: Option<f64>) -> String {
+    /// Formats a number of a column with [`Table::decimals`] decimals, or without if the column has counts; a missing number is
+    /// an en dash.
+    pub fn shown(&self, column: usize, value: Option<f64>) -> String {
         let Some(value) = value else { return "\u{2013}".to_owned() };
-        let text = format!("{value:.*}", self.decimals);
+        let is_count = self.n_counts > 0 && column >= self.columns.len().saturating_sub(self.n_counts);
+        let text = format!("{value:.*}", if is_count { 0 } else { self.decimals });
         // Avoids "-0.000".
         match text.strip_prefix('-') {
             Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.to_owned(),
@@ -332,8 +336,21 @@ mod tests {
             columns: vec!["one".to_owned(), "two".to_owned()],
             rows: vec![("rough-smooth".to_owned(), vec![Some(-0.756_51), None])],
             decimals: 3,
+            n_counts: 0,
             source: "simulated raters".to_owned(),
         }
+    }
+
+    #[test]
+    fn counts_have_no_decimals() {
+        let counted = Table { n_counts: 1, ..table() };
+        assert_eq!(counted.shown(0, Some(12.0)), "12.000");
+        assert_eq!(counted.shown(1, Some(12.0)), "12");
+        assert_eq!(
+            (counted.shown(1, None), table().shown(1, Some(12.0))),
+            ("\u{2013}".to_owned(), "12.000".to_owned())
+        );
+        assert_eq!(counted.shown(0, Some(-0.000_1)), "0.000");
     }
 
     #[test]

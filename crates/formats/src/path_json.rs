@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use serde::{Serialize as _, Serializer};
+use serde::{Deserialize as _, Deserializer, Serialize as _, Serializer};
 use serde_json::{Value, json};
 
 const BYTES: &str = "unix_bytes";
@@ -31,6 +31,12 @@ pub(crate) fn from_json(value: &Value) -> Option<PathBuf> {
 /// Serializes a path for a struct field.
 pub(crate) fn serialize<S: Serializer>(path: &Path, serializer: S) -> Result<S::Ok, S::Error> {
     to_json(path).serialize(serializer)
+}
+
+/// Deserializes a path of a struct field.
+pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<PathBuf, D::Error> {
+    let value = Value::deserialize(deserializer)?;
+    from_json(&value).ok_or_else(|| serde::de::Error::custom("it is not a path of this system"))
 }
 
 /// Serializes paths for a struct field.

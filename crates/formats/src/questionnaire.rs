@@ -98,6 +98,32 @@ pub fn questionnaires() -> Result<&'static [Questionnaire], QuestionnaireError> 
     ALL.get_or_init(read).as_ref().map(Vec::as_slice).map_err(Clone::clone)
 }
 
+/// Adjective pairs of the built-in questionnaires, published and further ones, each once.
+pub fn known_pairs() -> Vec<AdjectivePair> {
+    let mut pairs: Vec<AdjectivePair> = Vec::new();
+    // A damaged program file has no questionnaires.
+    for questionnaire in questionnaires().unwrap_or_default() {
+        for pair in questionnaire.pairs.iter().chain(&questionnaire.further_pairs) {
+            if !pairs.contains(pair) {
+                pairs.push(pair.clone());
+            }
+        }
+    }
+    pairs
+}
+
+/// Whether a built-in questionnaire has this pair, with either adjective at 0.
+pub fn is_known_pair(pair: &AdjectivePair) -> bool {
+    let turned = AdjectivePair { low: pair.high.clone(), high: pair.low.clone() };
+    known_pairs().iter().any(|known| is_same_pair(known, pair) || is_same_pair(known, &turned))
+}
+
+/// Whether two pairs have the same adjectives in the same order, whatever their case.
+pub(crate) fn is_same_pair(one: &AdjectivePair, other: &AdjectivePair) -> bool {
+    let is_same = |one: &str, other: &str| one.trim().eq_ignore_ascii_case(other.trim());
+    is_same(&one.low, &other.low) && is_same(&one.high, &other.high)
+}
+
 /// Reads a questionnaire.
 ///
 /// # Errors
@@ -228,8 +254,8 @@ mod tests {
     use shagreen_core::people::ratings::{AdjectivePair, RelevanceVote};
 
     use super::{
-        blank_ratings, blank_votes, is_blank_ratings, is_blank_votes, is_instructions, questionnaires,
-        read_questionnaire,
+        blank_ratings, blank_votes, is_blank_ratings, is_blank_votes, is_instructions, is_known_pair,
+        known_pairs, questionnaires, read_questionnaire,
     };
     use crate::ratings_csv::{read_ratings, read_relevance_csv};
 
@@ -245,6 +271,16 @@ mod tests {
         assert_eq!(names(&vrst.pairs), expected);
         assert_eq!((authoring.id.as_str(), authoring.pairs.len()), ("authoring-2020", 4));
         assert!(names(&authoring.pairs).iter().all(|pair| expected.contains(&pair.as_str())));
+    }
+
+    #[test]
+    fn pairs_are_known_in_either_order_and_listed_once() {
+        let known = names(&known_pairs());
+        assert_eq!(known.len(), 9);
+        assert_eq!(known.iter().collect::<BTreeSet<_>>().len(), 9);
+        let is_known = |name: &str| is_known_pair(&name.parse().unwrap());
+        assert!(is_known("rough-smooth") && is_known("Smooth - Rough") && is_known("thick-thin"));
+        assert!(!is_known("rogh-smooth") && !is_known("cold-warm") && !is_known("rough-soft"));
     }
 
     #[test]

@@ -15,7 +15,7 @@ use crate::path_json;
 use crate::photo_networks::PhotoNetworks;
 use crate::rig_settings::RigSettings;
 
-pub use study_settings::{PIXELS_PER_MM, StudySettings};
+pub use study_settings::{LogFolder, MAX_LOG_FOLDERS, PIXELS_PER_MM, StudySettings};
 
 /// Nesting depth up to which values get their own lines.
 const OPEN_DEPTH: usize = 2;

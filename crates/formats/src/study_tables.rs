@@ -13,23 +13,34 @@
 //! | `value` | the response: a number, 1 or 0 for yes or no, or a side |
 //! | `right` | 1 or 0 if the response can be right or wrong |
 //! | `response_s`, `latency_ms` | response time, latency of the output |
-//! | `distance_mm`, `mean_speed_mm_per_s`, `mean_force_n` | movement of the hand |
+//! | `distance_mm`, `mean_speed_mm_per_s`, `mean_force_n` | movement of the hand; empty without contact |
+//! | `touched_mm` | distance over each stimulus, separated by spaces |
 //! | `plays` | how often the stimuli were started, separated by spaces |
-//! | `device`, `stimulus_hashes` | actuator profile, hashes of what was presented |
+//! | `device`, `stimulus_hashes` | actuator profile of this trial, hashes of what was presented |
+//! | `output` | name of the output, or `no output` for the silent one |
+//! | `actuator`, `masking_output` | actuator profile and output of the masking noise, or `none` |
+//! | `pen` | name of the pen, or `pointer` |
+//! | `screen` | `measured` or `assumed`: the scale of the screen |
+//! | `program` | name and version of the program |
 //!
-//! An empty field was not measured. [`crate::sorting_csv`] and [`crate::ratings_csv`] write the tables from which a space is
-//! built.
+//! An empty field was not measured, or is not stated by the log. [`crate::sorting_csv`] and [`crate::ratings_csv`] write the
+//! tables from which a space is built, [`pairs_csv`] that of discriminated pairs.
 
+mod devices;
+mod pairs;
 mod values;
 
 use shagreen_core::people::study::answer::{Answer, Measured, Record, is_right};
 use shagreen_core::people::study::plan::Plan;
 
+use self::devices::device_fields;
 use self::values::{Row, rows};
 use crate::named_table::write_table;
 
+pub use pairs::pairs_csv;
+
 /// Columns of the table.
-const COLUMNS: [&str; 21] = [
+const COLUMNS: [&str; 28] = [
     "participant",
     "number",
     "simulated",
@@ -48,21 +59,31 @@ const COLUMNS: [&str; 21] = [
     "distance_mm",
     "mean_speed_mm_per_s",
     "mean_force_n",
+    "touched_mm",
     "plays",
     "device",
     "stimulus_hashes",
+    "output",
+    "actuator",
+    "masking_output",
+    "pen",
+    "screen",
+    "program",
 ];
 
 /// Writes the answers of all participants as a tidy table. Answers to parts that the plan does not have are left out.
 pub fn tidy_csv(plan: &Plan, records: &[Record]) -> Vec<u8> {
     let first = COLUMNS.map(str::to_owned).to_vec();
     let of_record = |record: &Record| -> Vec<Vec<String>> {
-        record.answers.iter().flat_map(|answer| table_rows(plan, record, answer)).collect()
+        let indices = 0..record.answers.len();
+        indices.flat_map(|index| table_rows(plan, record, index)).collect()
     };
     write_table(std::iter::once(first).chain(records.iter().flat_map(of_record)))
 }
 
-fn table_rows(plan: &Plan, record: &Record, answer: &Answer) -> Vec<Vec<String>> {
+/// Rows of one answer, by its index.
+fn table_rows(plan: &Plan, record: &Record, index: usize) -> Vec<Vec<String>> {
+    let answer: &Answer = &record.answers[index];
     let Some(part) = plan.part(&answer.trial.part) else { return Vec::new() };
     let trial = &answer.trial;
     let begin = [
@@ -75,23 +96,27 @@ fn table_rows(plan: &Plan, record: &Record, answer: &Answer) -> Vec<Vec<String>>
         flag(trial.is_practice),
     ];
     let right = is_right(&trial.task, &answer.response).map_or_else(String::new, flag);
-    let end = measured_fields(&answer.measured);
+    let measured = measured_fields(&answer.measured);
+    let devices = device_fields(record.setup_at(index));
     let with_ends = |row: Row| {
         let middle = [row.stimulus, row.other_stimulus, row.item, row.presented, row.value, right.clone()];
-        begin.iter().cloned().chain(middle).chain(end.iter().cloned()).collect()
+        let end = measured.iter().chain(&devices).cloned();
+        begin.iter().cloned().chain(middle).chain(end).collect()
     };
     rows(&part.design, &trial.task, &answer.response).into_iter().map(with_ends).collect()
 }
 
-fn measured_fields(measured: &Measured) -> [String; 8] {
+fn measured_fields(measured: &Measured) -> [String; 9] {
     let motion = measured.motion;
     let plays: Vec<String> = measured.n_plays.iter().map(ToString::to_string).collect();
+    let touched: Vec<String> = measured.touched_m.iter().map(|meters| (1e3 * meters).to_string()).collect();
     [
         number(measured.response_secs),
         number(measured.latency_secs.map(|secs| 1e3 * secs)),
         number(motion.map(|motion| 1e3 * motion.distance_m)),
         number(motion.map(|motion| 1e3 * motion.mean_speed_mps)),
         number(motion.map(|motion| motion.mean_force_n)),
+        touched.join(" "),
         plays.join(" "),
         measured.device.clone(),
         measured.stimulus_hashes.join(" "),

@@ -1,6 +1,7 @@
 //! Settings of a training on labelled photos.
 
 use serde::{Deserialize, Serialize};
+use shagreen_core::maths::kernel_ridge::KernelRidgeConfig;
 
 /// Settings of a training on labelled photos.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,6 +15,9 @@ pub struct PhotoConfig {
     pub class_penalty: f64,
     /// Settings of the small networks.
     pub network: SmallNetworkConfig,
+    /// Settings of the kernel regression.
+    #[serde(default)]
+    pub kernel: KernelConfig,
     /// Contributions of the heads to the hardness.
     pub hardness: HeadWeights,
     /// Contribution of the class probabilities to the roughness, 0 to 1; the rest is that of the heads trained on drawn
@@ -34,12 +38,15 @@ pub struct HeadWeights {
     pub classes: f64,
     /// Small networks.
     pub network: f64,
+    /// Kernel regression; models of earlier versions have none.
+    #[serde(default)]
+    pub kernel: f64,
 }
 
 impl HeadWeights {
     /// Returns whether the weights are usable: finite, 0 or more, and not all zero.
     pub fn is_sound(&self) -> bool {
-        let weights = [self.ridge, self.classes, self.network];
+        let weights = [self.ridge, self.classes, self.network, self.kernel];
         weights.iter().all(|weight| weight.is_finite() && *weight >= 0.0) && weights.iter().sum::<f64>() > 0.0
     }
 }
@@ -62,6 +69,31 @@ pub struct SmallNetworkConfig {
     pub n_batch: usize,
     /// Number of networks, whose predictions are averaged.
     pub n_networks: usize,
+}
+
+/// Settings of the kernel regression.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct KernelConfig {
+    /// Number of principal components of the features.
+    pub n_components: usize,
+    /// Decay of the kernel with the mean squared difference of the components; above 0.
+    pub decay: f64,
+    /// Penalty of a photo of mean weight; above 0.
+    pub penalty: f64,
+}
+
+impl Default for KernelConfig {
+    /// The settings with the smallest error on classes that were left out.
+    fn default() -> Self {
+        Self { n_components: 60, decay: 0.5, penalty: 0.2 }
+    }
+}
+
+impl From<KernelConfig> for KernelRidgeConfig {
+    fn from(config: KernelConfig) -> Self {
+        let KernelConfig { n_components, decay, penalty } = config;
+        Self { n_components, decay, penalty }
+    }
 }
 
 /// Photos on whose errors the standard deviations are scaled. Each was left out of the training that predicted it.
@@ -93,8 +125,9 @@ impl PhotoConfig {
                 n_batch: 128,
                 n_networks: 3,
             },
-            hardness: HeadWeights { ridge: 1.0, classes: 1.0, network: 1.0 },
-            roughness_of_classes: 0.7,
+            kernel: KernelConfig::default(),
+            hardness: HeadWeights { ridge: 1.0, classes: 1.0, network: 1.0, kernel: 3.0 },
+            roughness_of_classes: 0.5,
             calibration: Calibration::Classes,
             seed,
         }
@@ -115,6 +148,7 @@ impl PhotoConfig {
         self.class_exponent.is_finite()
             && is_positive(self.ridge_penalty)
             && is_positive(self.class_penalty)
+            && KernelRidgeConfig::from(self.kernel).is_sound()
             && self.hardness.is_sound()
             && (0.0..=1.0).contains(&self.roughness_of_classes)
             && (0.0..1.0).contains(&dropout)
@@ -127,13 +161,13 @@ impl PhotoConfig {
 
 #[cfg(test)]
 mod tests {
-    use super::{HeadWeights, PhotoConfig, SmallNetworkConfig};
+    use super::{HeadWeights, KernelConfig, PhotoConfig, SmallNetworkConfig};
 
     #[test]
     fn unusable_settings_are_found() {
         let usual = PhotoConfig::usual(1);
         assert!(usual.is_sound());
-        let none = HeadWeights { ridge: 0.0, classes: 0.0, network: 0.0 };
+        let none = HeadWeights { ridge: 0.0, classes: 0.0, network: 0.0, kernel: 0.0 };
         let negative = HeadWeights { classes: -1.0, ..usual.hardness };
         let network = |change: fn(&mut SmallNetworkConfig)| {
             let mut config = usual.clone();
@@ -145,6 +179,7 @@ mod tests {
             PhotoConfig { class_penalty: f64::NAN, ..usual.clone() },
             PhotoConfig { roughness_of_classes: 1.1, ..usual.clone() },
             PhotoConfig { hardness: none, ..usual.clone() },
+            PhotoConfig { kernel: KernelConfig { penalty: 0.0, ..usual.kernel }, ..usual.clone() },
             PhotoConfig { hardness: negative, ..usual.clone() },
             network(|config| config.dropout = 1.0),
             network(|config| config.n_networks = 0),

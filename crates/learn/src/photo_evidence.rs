@@ -32,13 +32,14 @@ pub(crate) struct ByHead {
     pub(crate) ridge: Option<f64>,
     pub(crate) classes: f64,
     pub(crate) network: Option<f64>,
+    pub(crate) kernel: Option<f64>,
 }
 
 /// Returns the prediction from the outputs of the heads for all views, and from the roughness that the heads trained on
-/// drawn materials predict.
+/// drawn materials predict; `None` for a photo with few pixels.
 pub(crate) fn evidence(
     outputs: &HeadOutputs,
-    drawn_roughness: Estimate,
+    drawn_roughness: Option<Estimate>,
     classes: &[MaterialClass],
     config: &PhotoConfig,
 ) -> PhotoEvidence {
@@ -55,6 +56,7 @@ pub(crate) fn evidence(
     let weights = config.hardness;
     let mut heads: Vec<(f64, &[f64])> = vec![(weights.classes, &hardness_by_classes[..])];
     heads.extend(outputs.ridge.iter().map(|of| (weights.ridge, &of[..])));
+    heads.extend(outputs.kernel.iter().map(|of| (weights.kernel, &of[..])));
     let n_networks = outputs.networks.len() as f64;
     heads.extend(outputs.networks.iter().map(|of| (weights.network / n_networks, &of[..])));
     let head_weights: Vec<f64> = heads.iter().map(|(weight, _)| *weight).collect();
@@ -71,6 +73,8 @@ pub(crate) fn evidence(
         .collect();
     let roughness_of_classes = column(|class| class.rough_smooth);
     let by_classes = weighted_mean(&roughness_of_classes, &probabilities);
+    // What is not known neither moves the roughness nor disagrees with it.
+    let drawn = drawn_roughness.unwrap_or(Estimate { mean: by_classes, deviation: 0.0 });
     let share = config.roughness_of_classes;
     let of_labels = |sds: &[f64]| {
         let squares: Vec<f64> = sds.iter().map(|sd| sd * sd).collect();
@@ -78,12 +82,12 @@ pub(crate) fn evidence(
     };
     PhotoEvidence {
         rough_smooth: Evidence {
-            mean: (share * by_classes + (1.0 - share) * drawn_roughness.mean).clamp(0.0, 100.0),
+            mean: (share * by_classes + (1.0 - share) * drawn.mean).clamp(0.0, 100.0),
             terms: [
                 1.0,
-                drawn_roughness.deviation.powi(2),
+                drawn.deviation.powi(2),
                 weighted_variance(&roughness_of_classes, &probabilities),
-                (by_classes - drawn_roughness.mean).powi(2),
+                (by_classes - drawn.mean).powi(2),
             ],
             of_labels: of_labels(&column(|class| class.rough_smooth_sd)),
         },
@@ -101,6 +105,7 @@ pub(crate) fn evidence(
             ridge: outputs.ridge.as_ref().map(|of| mean(of)),
             classes: mean(&hardness_by_classes),
             network: by_network.map(|of| mean(&of)),
+            kernel: outputs.kernel.as_ref().map(|of| mean(of)),
         },
         roughness_of_classes: by_classes,
         probabilities,
@@ -125,18 +130,22 @@ mod tests {
         let classes = [class(10.0, 5.0, 80.0, 10.0), class(90.0, 7.0, 20.0, 20.0)];
         let outputs = HeadOutputs {
             ridge: Some(vec![30.0, 50.0]),
+            kernel: None,
             networks: vec![vec![60.0, 60.0], vec![80.0, 80.0]],
             probabilities: vec![vec![1.0, 0.0], vec![0.5, 0.5]],
             distances: vec![1.0, 2.0],
         };
         let config = PhotoConfig {
-            hardness: HeadWeights { ridge: 1.0, classes: 2.0, network: 1.0 },
+            hardness: HeadWeights { ridge: 1.0, classes: 2.0, network: 1.0, kernel: 3.0 },
             roughness_of_classes: 0.25,
             ..PhotoConfig::usual(1)
         };
         let drawn = Estimate { mean: 45.0, deviation: 6.0 };
-        let of = evidence(&outputs, drawn, &classes, &config);
-        assert_eq!(of.by_head, ByHead { ridge: Some(40.0), classes: 30.0, network: Some(70.0) });
+        let of = evidence(&outputs, Some(drawn), &classes, &config);
+        assert_eq!(
+            of.by_head,
+            ByHead { ridge: Some(40.0), classes: 30.0, network: Some(70.0), kernel: None }
+        );
         // (40 + 2 · 30 + 70) / 4, and by views (30 + 2 · 10 + 70) / 4 and (50 + 2 · 50 + 70) / 4.
         assert!((of.hard_soft.mean - 42.5).abs() < 1e-12);
         let [one, views, heads, mixture] = of.hard_soft.terms;
@@ -161,13 +170,18 @@ mod tests {
         let classes = [class(10.0, 5.0, 80.0, 10.0), class(90.0, 7.0, 20.0, 20.0)];
         let outputs = HeadOutputs {
             ridge: None,
+            kernel: None,
             networks: Vec::new(),
             probabilities: vec![vec![0.0, 1.0]],
             distances: vec![0.7],
         };
-        let drawn = Estimate { mean: 45.0, deviation: 6.0 };
-        let of = evidence(&outputs, drawn, &classes, &PhotoConfig::usual(1));
-        assert_eq!(of.by_head, ByHead { ridge: None, classes: 90.0, network: None });
+        let of = evidence(&outputs, None, &classes, &PhotoConfig::usual(1));
+        assert_eq!(of.by_head, ByHead { ridge: None, classes: 90.0, network: None, kernel: None });
         assert_eq!((of.hard_soft.mean, of.hard_soft.terms), (90.0, [1.0, 0.0, 0.0, 0.0]));
+        assert_eq!((of.rough_smooth.mean, of.rough_smooth.terms), (20.0, [1.0, 0.0, 0.0, 0.0]));
+        // The kernel regression has three times the weight of the class probabilities.
+        let outputs = HeadOutputs { kernel: Some(vec![50.0]), ..outputs };
+        let of = evidence(&outputs, None, &classes, &PhotoConfig::usual(1));
+        assert_eq!((of.by_head.kernel, of.hard_soft.mean), (Some(50.0), 60.0));
     }
 }

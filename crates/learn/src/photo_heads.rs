@@ -1,5 +1,5 @@
-//! Heads on late features of photos: class probabilities, a ridge regression and small networks that predict the
-//! hardness, and the distance from the training photos.
+//! Heads on late features of photos: class probabilities, a ridge regression, a kernel regression and small networks that
+//! predict the hardness, and the distance from the training photos.
 //!
 //! All heads see the same scaled features of one view. A prediction is made for each view of a photo.
 
@@ -8,7 +8,9 @@ mod small_network;
 
 use candle_core::{Device, Tensor};
 use ndarray::{Array2, aview1};
+use serde::{Deserialize, Serialize};
 use shagreen_core::maths::class_distance::{ClassDistance, ClassDistanceError};
+use shagreen_core::maths::kernel_ridge::{KernelRidge, KernelRidgeError};
 use shagreen_core::maths::minimize::Stop;
 use shagreen_core::maths::multinomial::{Examples, MultinomialError, MultinomialLogistic};
 use shagreen_core::maths::ridge::{Ridge, RidgeError, ridge};
@@ -30,6 +32,8 @@ const STOP: Stop = Stop { slope: 1e-4, n_steps: 300 };
 const SHRINKAGE: f64 = 0.1;
 /// Largest numbers of features and of classes in a file.
 const MOST_NUMBERS: usize = 1 << 14;
+/// Largest number of photos behind a kernel regression in a file.
+const MOST_EXAMPLES: usize = 1 << 20;
 
 /// Reasons why heads cannot be trained, read or used.
 #[derive(Debug, thiserror::Error)]
@@ -57,6 +61,9 @@ pub enum PhotoHeadsError {
     /// The ridge regression failed.
     #[error(transparent)]
     Ridge(#[from] RidgeError),
+    /// The kernel regression failed.
+    #[error(transparent)]
+    Kernel(#[from] KernelRidgeError),
     /// The class probabilities failed.
     #[error(transparent)]
     Classes(#[from] MultinomialError),
@@ -76,6 +83,7 @@ pub enum PhotoHeadsError {
 pub(crate) struct PhotoHeads {
     scale: FeatureScale,
     ridge: Option<Ridge>,
+    kernel: Option<KernelRidge>,
     classes: MultinomialLogistic,
     /// Class of the set behind each class of `classes`.
     present: Vec<usize>,
@@ -85,11 +93,38 @@ pub(crate) struct PhotoHeads {
     device: Device,
 }
 
+/// Heads of a model besides the class probabilities.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct HeadParts {
+    pub(crate) has_ridge: bool,
+    pub(crate) kernel: Option<KernelSize>,
+    pub(crate) n_networks: usize,
+}
+
+/// Size of a kernel regression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct KernelSize {
+    pub(crate) n_examples: usize,
+    pub(crate) n_components: usize,
+}
+
+impl KernelSize {
+    fn of(centers: &Array2<f64>) -> Self {
+        Self { n_examples: centers.nrows(), n_components: centers.ncols() }
+    }
+
+    fn is_possible(self) -> bool {
+        (1..=MOST_EXAMPLES).contains(&self.n_examples) && (1..=MOST_NUMBERS).contains(&self.n_components)
+    }
+}
+
 /// Predictions of the heads for one photo; vectors over views.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct HeadOutputs {
     /// Hardness by the ridge regression; `None` if it was not trained.
     pub(crate) ridge: Option<Vec<f64>>,
+    /// Hardness by the kernel regression; `None` if it was not trained.
+    pub(crate) kernel: Option<Vec<f64>>,
     /// Hardness by each small network.
     pub(crate) networks: Vec<Vec<f64>>,
     /// Probability of each class of the set.
@@ -122,6 +157,14 @@ impl PhotoHeads {
         let ridge = (config.hardness.ridge > 0.0)
             .then(|| ridge(&rows.features, &rows.hard_soft, &rows.weights, config.ridge_penalty * total))
             .transpose()?;
+        let kernel = (config.hardness.kernel > 0.0)
+            .then(|| {
+                let of_photos = rows.photos(set, photos);
+                let (labels, weights) = (&of_photos.hard_soft, &of_photos.weights);
+                let examples = (&of_photos.features, &labels[..], &weights[..]);
+                KernelRidge::learn((&rows.features, &rows.weights), examples, config.kernel.into())
+            })
+            .transpose()?;
         let examples = Examples { rows: &rows.features, classes: &rows.classes, weights: &rows.weights };
         let classes = MultinomialLogistic::learn(examples, n_present, config.class_penalty, STOP)?;
         let distance =
@@ -137,6 +180,14 @@ impl PhotoHeads {
             ridge: ridge.map(|of| Ridge {
                 coefficients: rounded(of.coefficients),
                 intercept: f64::from(of.intercept as f32),
+            }),
+            kernel: kernel.map(|of| KernelRidge {
+                means: rounded(of.means),
+                directions: of.directions.mapv(|x| f64::from(x as f32)),
+                centers: of.centers.mapv(|x| f64::from(x as f32)),
+                coefficients: rounded(of.coefficients),
+                intercept: f64::from(of.intercept as f32),
+                decay: f64::from(of.decay as f32),
             }),
             classes: MultinomialLogistic {
                 coefficients: classes.coefficients.mapv(|x| f64::from(x as f32)),
@@ -179,6 +230,7 @@ impl PhotoHeads {
         let networks = self.networks.iter().map(|of| small_network::predict(of, &scaled, &self.device));
         Ok(HeadOutputs {
             ridge: self.ridge.as_ref().map(|ridge| exact.iter().map(|view| ridge.at(view)).collect()),
+            kernel: self.kernel.as_ref().map(|kernel| exact.iter().map(|view| kernel.at(view)).collect()),
             networks: networks.collect::<Result<_, _>>()?,
             probabilities: exact.iter().map(probabilities).collect(),
             distances: exact.iter().map(|view| self.distance.at(view)).collect(),
@@ -190,9 +242,13 @@ impl PhotoHeads {
         self.scale.n_features()
     }
 
-    /// Returns whether there is a ridge regression, and the number of small networks.
-    pub(crate) fn parts(&self) -> (bool, usize) {
-        (self.ridge.is_some(), self.networks.len())
+    /// Returns which heads there are besides the class probabilities.
+    pub(crate) fn parts(&self) -> HeadParts {
+        HeadParts {
+            has_ridge: self.ridge.is_some(),
+            kernel: self.kernel.as_ref().map(|kernel| KernelSize::of(&kernel.centers)),
+            n_networks: self.networks.len(),
+        }
     }
 
     /// Adds the weights to the tensors of a file, with names that begin with `prefix`.
@@ -208,6 +264,15 @@ impl PhotoHeads {
             add("ridge.weight", &as_row(coefficients))?;
             add("ridge.bias", &as_row(&[*intercept]))?;
         }
+        if let Some(KernelRidge { means, directions, centers, coefficients, intercept, decay }) = &self.kernel
+        {
+            add("kernel.means", &as_row(means))?;
+            add("kernel.directions", directions)?;
+            add("kernel.centers", centers)?;
+            add("kernel.coefficients", &as_row(coefficients))?;
+            add("kernel.intercept", &as_row(&[*intercept]))?;
+            add("kernel.decay", &as_row(&[*decay]))?;
+        }
         add("classes.weight", &self.classes.coefficients)?;
         add("classes.bias", &as_row(&self.classes.intercepts))?;
         add("distance.whitening", &self.distance.whitening)?;
@@ -218,7 +283,7 @@ impl PhotoHeads {
         Ok(())
     }
 
-    /// Reads what [`PhotoHeads::add_to`] wrote for heads trained on all classes. `has_ridge` and `n_networks` are those of
+    /// Reads what [`PhotoHeads::add_to`] wrote for heads trained on all classes. `parts` are those of
     /// [`PhotoHeads::parts`].
     ///
     /// # Errors
@@ -229,12 +294,13 @@ impl PhotoHeads {
         prefix: &str,
         config: &PhotoConfig,
         [n_features, n_classes]: [usize; 2],
-        (has_ridge, n_networks): (bool, usize),
+        HeadParts { has_ridge, kernel, n_networks }: HeadParts,
     ) -> Result<Self, PhotoHeadsError> {
         let is_possible = config.is_sound()
             && (1..=MOST_NUMBERS).contains(&n_features)
             && (2..=MOST_NUMBERS).contains(&n_classes)
-            && n_networks <= config.network.n_networks;
+            && n_networks <= config.network.n_networks
+            && kernel.is_none_or(KernelSize::is_possible);
         if !is_possible {
             return Err(PhotoHeadsError::Settings);
         }
@@ -258,12 +324,25 @@ impl PhotoHeads {
         } else {
             None
         };
+        let one = |name: &str| row(name, 1).map(|values| values.into_iter().sum::<f64>());
+        let kernel = match kernel {
+            Some(KernelSize { n_examples, n_components }) => Some(KernelRidge {
+                means: row("kernel.means", n_features)?,
+                directions: matrix("kernel.directions", [n_components, n_features])?,
+                centers: matrix("kernel.centers", [n_examples, n_components])?,
+                coefficients: row("kernel.coefficients", n_examples)?,
+                intercept: one("kernel.intercept")?,
+                decay: one("kernel.decay")?,
+            }),
+            None => None,
+        };
         let sizes = small_network::sizes(n_features, &config.network);
         let network =
             |index| dense_stack::read(numbers, &format!("{prefix}network{index}."), &sizes, &device);
         Ok(Self {
             scale: FeatureScale::read(numbers, prefix, n_features).map_err(ModelFileError::Shape)?,
             ridge,
+            kernel,
             classes: MultinomialLogistic {
                 coefficients: matrix("classes.weight", [n_classes, n_features])?,
                 intercepts: row("classes.bias", n_classes)?,

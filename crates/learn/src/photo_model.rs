@@ -2,19 +2,20 @@
 //!
 //! The hardness comes from heads on late features of several views, trained on the physical hardness of the class of each
 //! photo. The roughness is the mean of two predictions: that of heads on early features, trained on drawn materials, and
-//! that of the class probabilities with the roughness of each class. The standard deviations are scaled to the errors on
-//! photos whose whole class or source was left out of the training.
+//! that of the class probabilities with the roughness of each class. Photos with few pixels have the second one alone. The
+//! standard deviations are scaled to the errors on photos whose whole class or source was left out of the training.
 
 use candle_core::Device;
 use serde::{Deserialize, Serialize};
 use shagreen_core::maths::gaussian_process::Estimate;
+use shagreen_core::surfaces::picture_features::SIDE;
 
 use crate::model_file::{self, Numbers};
 use crate::photo_card::PhotoCard;
 use crate::photo_config::PhotoConfig;
 use crate::photo_deviation::DeviationModel;
 use crate::photo_evidence::evidence;
-use crate::photo_heads::PhotoHeads;
+use crate::photo_heads::{HeadParts, KernelSize, PhotoHeads};
 use crate::photo_set::{MaterialClass, PhotoFeatures, PhotoSet};
 use crate::photo_validation::{ATTRIBUTES, Calibrated, JudgedPhoto, Validation, all_doubts, evidence_of};
 use crate::picture_model::{self, FeatureExtractor, PictureModel, PictureModelError};
@@ -38,6 +39,8 @@ struct About {
     n_features: usize,
     has_ridge: bool,
     n_networks: usize,
+    #[serde(default)]
+    kernel: Option<KernelSize>,
     /// Standard deviations of each attribute.
     deviations: [DeviationModel; 2],
     /// Distance from the training photos that counts as usual.
@@ -53,14 +56,20 @@ pub struct PhotoModel {
     heads: PhotoHeads,
 }
 
-/// Returns the roughness that heads trained on drawn materials predict from early features.
+/// Returns the roughness that heads trained on drawn materials predict from early features; `None` for a photo with fewer
+/// pixels than the network sees, since interpolated pixels have none of the fine detail that these heads were trained on.
 ///
 /// # Errors
 /// [`PictureModelError::NoRoughness`], and those of [`PictureModel::predict`].
-pub fn drawn_roughness(drawn: &PictureModel, early: &[f32]) -> Result<Estimate, PictureModelError> {
+pub fn drawn_roughness(
+    drawn: &PictureModel,
+    features: &PhotoFeatures,
+) -> Result<Option<Estimate>, PictureModelError> {
     let index = drawn.attributes().iter().position(|name| name == ATTRIBUTES[0]);
-    let estimates = drawn.predict(early)?;
-    index.and_then(|index| estimates.get(index)).copied().ok_or(PictureModelError::NoRoughness)
+    let estimates = drawn.predict(&features.early)?;
+    let estimate = index.and_then(|index| estimates.get(index)).copied();
+    let is_large = features.side_px >= SIDE;
+    estimate.map(|estimate| is_large.then_some(estimate)).ok_or(PictureModelError::NoRoughness)
 }
 
 impl PhotoModel {
@@ -87,7 +96,7 @@ impl PhotoModel {
             validation.calibrated().ok_or(PictureModelError::Unjudged)?;
         let all: Vec<usize> = (0..set.photos.len()).collect();
         let heads = PhotoHeads::learn(set, &all, config)?;
-        let (has_ridge, n_networks) = heads.parts();
+        let HeadParts { has_ridge, kernel, n_networks } = heads.parts();
         let card = PhotoCard {
             n_photos: set.photos.len(),
             n_classes: set.classes.len(),
@@ -108,6 +117,7 @@ impl PhotoModel {
             n_features: heads.n_features(),
             has_ridge,
             n_networks,
+            kernel,
             deviations,
             usual_distance,
             card,
@@ -146,7 +156,7 @@ impl PhotoModel {
     /// [`PictureModelError::Picture`] or [`PictureModelError::Photos`] for another number of features, or a feature that is
     /// not finite.
     pub fn predict(&self, features: &PhotoFeatures) -> Result<PicturePrediction, PictureModelError> {
-        let drawn = drawn_roughness(&self.drawn, &features.early)?;
+        let drawn = drawn_roughness(&self.drawn, features)?;
         let outputs = self.heads.look(&features.late)?;
         let of = evidence(&outputs, drawn, &self.about.classes, &self.about.card.settings);
         let unlikeness = of.distance / self.about.usual_distance;
@@ -198,7 +208,8 @@ impl PhotoModel {
             return Err(PictureModelError::Settings);
         }
         let sizes = [about.n_features, about.classes.len()];
-        let parts = (about.has_ridge, about.n_networks);
+        let parts =
+            HeadParts { has_ridge: about.has_ridge, kernel: about.kernel, n_networks: about.n_networks };
         let heads = PhotoHeads::read(&numbers, OF_PHOTOS, &about.card.settings, sizes, parts)?;
         let drawn = PictureModel::read(about.drawn.clone(), &numbers, OF_DRAWN, device)?;
         Ok(Self { about, drawn, heads })

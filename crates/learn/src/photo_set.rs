@@ -9,7 +9,7 @@
 //! | `late` | rows × late features | features of one view or variation of a photo |
 //! | `rows` | rows × 3 | index of the photo; pass: 0 for the plain photo, then the number of the variation; view: 0 for the whole central square, 1 to 4 for its quarters |
 //! | `early` | photos × early features | features of the plain photo |
-//! | `photos` | photos × 8 | index of the class, index of the source, hard-soft and its standard deviation, rough-smooth and its standard deviation, RMS detail (0 to 1), sharpness in dB |
+//! | `photos` | photos × 9 | index of the class, index of the source, hard-soft and its standard deviation, rough-smooth and its standard deviation, RMS detail (0 to 1), sharpness in dB, side of the central square of the file in pixels |
 //!
 //! The metadata entry `shagreen` is JSON. Its `about` has the names behind the indices: `classes`, `sources`, and `files`
 //! with the SHA-256 of each photo. The photos themselves are not in the file.
@@ -26,7 +26,7 @@ const KIND: &str = "photos that were looked at";
 /// Columns of the tensor `rows`.
 const N_OF_ROW: usize = 3;
 /// Columns of the tensor `photos`.
-const N_OF_PHOTO: usize = 8;
+const N_OF_PHOTO: usize = 9;
 
 /// Features of a photo.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +37,8 @@ pub struct PhotoFeatures {
     pub late: Vec<Vec<f32>>,
     /// Amount of detail in the central square.
     pub detail: Detail,
+    /// Side of the central square of the file, in pixels.
+    pub side_px: usize,
 }
 
 /// Class of materials with its labels, 0 to 100.
@@ -127,6 +129,7 @@ impl PhotoSet {
             let Detail { rms, sharpness_db } = photo.features.detail;
             photos.extend([photo.class as f32, photo.source as f32]);
             photos.extend(labels.iter().chain(&[rms, sharpness_db]).map(|value| *value as f32));
+            photos.push(photo.features.side_px as f32);
         }
         let early: Vec<f32> = self.photos.iter().flat_map(|photo| &photo.features.early).copied().collect();
         let late: Vec<f32> = late().flatten().copied().collect();
@@ -178,7 +181,7 @@ impl PhotoSet {
         let mut late = late.into_iter();
         let mut seen = Vec::with_capacity(n_photos);
         for ((kept, early), photo) in about.files.into_iter().zip(early).zip(photos) {
-            let [class, source, .., rms, sharpness_db] = photo[..] else {
+            let [class, source, .., rms, sharpness_db, side_px] = photo[..] else {
                 return Err(shape_error("a photo has no class".to_owned()));
             };
             let (class, source) = (class as usize, source as usize);
@@ -187,7 +190,7 @@ impl PhotoSet {
             }
             let detail = Detail { rms: f64::from(rms), sharpness_db: f64::from(sharpness_db) };
             let late = late.by_ref().take(n_each).collect();
-            let features = PhotoFeatures { early, late, detail };
+            let features = PhotoFeatures { early, late, detail, side_px: side_px as usize };
             seen.push(SeenPhoto { file: kept.file, sha256: kept.sha256, class, source, features });
         }
         Ok(Self { made_by: about.made_by, classes: about.classes, sources: about.sources, photos: seen })
@@ -224,6 +227,7 @@ mod tests {
                 early: vec![n as f32; 2],
                 late: (0..N_VIEWS + 2).map(|row| vec![n as f32, row as f32, 0.5]).collect(),
                 detail: Detail { rms: 0.25, sharpness_db: -3.5 },
+                side_px: 128 + n,
             },
         };
         PhotoSet {

@@ -29,8 +29,8 @@ pub struct JudgedPhoto {
     /// Number of the fold among those of its kind.
     fold: usize,
     of: PhotoEvidence,
-    /// Roughness by the heads trained on drawn materials.
-    drawn_roughness: Estimate,
+    /// Roughness by the heads trained on drawn materials; `None` for a photo with few pixels.
+    drawn_roughness: Option<Estimate>,
     /// Mean hardness of the photos that were not left out.
     mean_hardness: f64,
     /// Mean roughness of their classes.
@@ -50,7 +50,7 @@ pub struct JudgedPhoto {
 pub fn judge(
     set: &PhotoSet,
     (number, fold): (usize, &Fold),
-    drawn_roughness: &[Estimate],
+    drawn_roughness: &[Option<Estimate>],
     config: &PhotoConfig,
 ) -> Result<Vec<JudgedPhoto>, PhotoHeadsError> {
     assert_eq!(drawn_roughness.len(), set.photos.len(), "each photo needs a roughness");
@@ -163,12 +163,16 @@ impl<'a> Validation<'a> {
         let mut figures = Vec::new();
         for attribute in [1, 0] {
             for kind in LeftOut::ALL {
-                let judged: Vec<&JudgedPhoto> =
+                let judged: Vec<&'a JudgedPhoto> =
                     self.judged.iter().filter(|photo| photo.kind == kind).collect();
                 let ratio = self.nested_ratio(attribute, kind);
                 for (predictor, predict) in predictors(attribute) {
-                    let predicted: Option<Vec<f64>> = judged.iter().map(|photo| predict(photo)).collect();
-                    let Some(predicted) = predicted.filter(|of| !of.is_empty()) else { continue };
+                    let by = |photo: &&'a JudgedPhoto| Some((*photo, predict(photo)?));
+                    let (judged, predicted): (Vec<&JudgedPhoto>, Vec<f64>) =
+                        judged.iter().filter_map(by).unzip();
+                    if judged.is_empty() {
+                        continue;
+                    }
                     let ratio = ratio.filter(|_| predictor == OF_MODEL);
                     figures.push(self.figure((attribute, kind, predictor), &judged, &predicted, ratio));
                 }
@@ -234,14 +238,15 @@ fn predictors(attribute: usize) -> Vec<(&'static str, Predict)> {
     const OF_ROUGHNESS: [(&str, Predict); 4] = [
         (OF_MODEL, |photo| Some(photo.of.rough_smooth.mean)),
         ("class probabilities", |photo| Some(photo.of.roughness_of_classes)),
-        ("heads of drawn materials", |photo| Some(photo.drawn_roughness.mean)),
+        ("heads of drawn materials", |photo| Some(photo.drawn_roughness?.mean)),
         ("mean of the others", |photo| Some(photo.mean_roughness)),
     ];
-    const OF_HARDNESS: [(&str, Predict); 5] = [
+    const OF_HARDNESS: [(&str, Predict); 6] = [
         (OF_MODEL, |photo| Some(photo.of.hard_soft.mean)),
         ("ridge regression", |photo| photo.of.by_head.ridge),
         ("class probabilities", |photo| Some(photo.of.by_head.classes)),
         ("small networks", |photo| photo.of.by_head.network),
+        ("kernel regression", |photo| photo.of.by_head.kernel),
         ("mean of the others", |photo| Some(photo.mean_hardness)),
     ];
     if attribute == 0 { OF_ROUGHNESS.to_vec() } else { OF_HARDNESS.to_vec() }

@@ -95,7 +95,8 @@ pub fn see_photo(backbone: Option<&Backbone>, picture: &Picture) -> Result<Photo
     for quarter in quarters {
         late.push(late_of_square(backbone, quarter)?);
     }
-    Ok(PhotoFeatures { early, late, detail: Detail::of(&square) })
+    let side_px = picture.width.min(picture.height);
+    Ok(PhotoFeatures { early, late, detail: Detail::of(&square), side_px })
 }
 
 /// Returns the name of a feature extractor, with the start of its file hash for a network.
@@ -259,9 +260,9 @@ mod tests {
         let mut set: PhotoSet = photo_set(24, 1);
         for (index, photo) in set.photos.iter_mut().enumerate() {
             let picture = material(photo.class, index as u64);
-            let PhotoFeatures { early, late, detail } = see_photo(None, &picture).unwrap();
+            let PhotoFeatures { early, late, detail, side_px } = see_photo(None, &picture).unwrap();
             let variations = vec![late[0].clone(); 2];
-            photo.features = PhotoFeatures { early, late: [late, variations].concat(), detail };
+            photo.features = PhotoFeatures { early, late: [late, variations].concat(), detail, side_px };
         }
         let bytes = photo_model(&set).to_bytes().unwrap();
         let looker = PicturePredictor::new(&bytes, None).unwrap();

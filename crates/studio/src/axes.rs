@@ -12,6 +12,7 @@ use shagreen_core::space::axis_evaluation::{AxisCandidate, AxisEvaluation, evalu
 use shagreen_core::space::signal_axes::SignalAxis;
 use shagreen_core::surfaces::touch_words::ATTRIBUTES;
 use shagreen_core::texture::TextureModel;
+use shagreen_core::words::near;
 use shagreen_formats::library::{Library, USUAL_AXES};
 use shagreen_formats::placed_space::is_dimension_name;
 use shagreen_formats::project::{AddedCoordinates, plain_axis_name};
@@ -19,7 +20,6 @@ use shagreen_formats::project::{AddedCoordinates, plain_axis_name};
 pub use self::columns::{AxisColumns, AxisSource, list_places};
 
 use self::columns::{Column, column, model, stated_column};
-use crate::near_names::near;
 use crate::parallel::in_parallel;
 
 /// Words for 0 and for 100 on a dimension of a perceptual space, before its name.

@@ -5,14 +5,16 @@ use std::path::{Path, PathBuf};
 use shagreen_studio::figure_files::write_together;
 use shagreen_studio::replace::refuse_inputs;
 use shagreen_studio::study::analysis::{
-    ParticipantKind, StudyReport, analyze, check_report_files, read_logs, report_files, report_text,
+    ParticipantKind, StudyReport, analyze, check_report_files, read_logs_with, report_files, report_text,
 };
+use shagreen_studio::study::plans::load_plan;
 
 use crate::cli::output;
 
 /// Computes the results of a study from its logs: means with confidence intervals, tests, thresholds, d', similarities.
 ///
-/// Damaged lines of a log are named and skipped. People and simulated participants are never mixed in one result.
+/// Damaged lines of a log are named and skipped. People and simulated participants are never mixed in one result. Answers
+/// without a touch, on a silent output and so on are named and counted.
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// Logs, or folders of logs.
@@ -24,8 +26,11 @@ pub(crate) struct Args {
     /// Analyze the simulated participants only.
     #[arg(long)]
     simulated: bool,
+    /// Plan file of the study, for logs whose first line is damaged. Default: the plan of the other logs.
+    #[arg(long, value_name = "PLAN.toml")]
+    plan: Option<PathBuf>,
     /// Folder for the report (report.json, report.svg), all answers as a tidy table (answers.csv), the figures as SVG and CSV,
-    /// and tables for `space build` (sorting.csv, ratings.csv, votes.csv).
+    /// tables for `space build` (sorting.csv, ratings.csv, votes.csv), and counts and d' of same-different pairs (pairs.csv).
     #[arg(short, long, value_name = "FOLDER")]
     out: Option<PathBuf>,
     /// Print the report as one JSON object.
@@ -39,7 +44,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         (_, true) => Some(ParticipantKind::Simulated),
         _ => None,
     };
-    let logs = read_logs(&args.logs)?;
+    let plan = args.plan.as_deref().map(load_plan).transpose()?;
+    let logs = read_logs_with(&args.logs, plan.as_ref())?;
     if let ([n_people, n_simulated], None) = (logs.counts(), kind)
         && n_people > 0
         && n_simulated > 0
@@ -57,7 +63,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         let files = report_files(&report, folder);
         check_report_files(folder, &files)?;
         let written: Vec<&Path> = files.iter().map(|(path, _)| path.as_path()).collect();
-        let inputs: Vec<Option<&Path>> = logs.paths().map(Some).collect();
+        let inputs: Vec<Option<&Path>> = logs.paths().map(Some).chain([args.plan.as_deref()]).collect();
         refuse_inputs(&written, &inputs)?;
         write_together(&files, Some(folder))?;
     }

@@ -2,11 +2,10 @@
 
 use std::path::PathBuf;
 
-use anyhow::Context as _;
 use serde_json::{Value, json};
 use shagreen_core::words::counted;
-use shagreen_studio::file::in_file;
-use shagreen_studio::study::plans::{StudyPlan, load_plan};
+use shagreen_formats::study_plan::has_placeholder_consent;
+use shagreen_studio::study::plans::{StudyPlan, load_plan_with};
 use shagreen_studio::study::preview::{PartPreview, StudyPreview, preview};
 
 use crate::cli::output;
@@ -37,9 +36,7 @@ pub(crate) struct Args {
 const N_SHOWN: usize = 5;
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let study = load_plan(&args.plan)?;
-    let textures = args.textures.load()?;
-    study.check_textures(&textures).with_context(|| in_file(&args.plan))?;
+    let study = load_plan_with(&args.plan, &args.textures.load()?)?;
     let meets = preview(&study, args.participant)?;
     output::print(args.json, &as_json(&study, &meets), || in_words(&study, &meets, args.trials));
     Ok(())
@@ -55,6 +52,7 @@ fn as_json(study: &StudyPlan, meets: &StudyPreview) -> Value {
             "trials": part.n_scored,
             "trials_are_estimated": part.is_estimated,
             "breaks": part.n_breaks,
+            "touch_mm": part.touch_mm,
             "minutes": part.minutes,
             "stimuli": part.stimuli,
             "order": part.trials,
@@ -67,6 +65,7 @@ fn as_json(study: &StudyPlan, meets: &StudyPreview) -> Value {
         "simulated": false,
         "participant": meets.participant,
         "consent": !plan.consent.trim().is_empty(),
+        "consent_is_placeholder": has_placeholder_consent(plan),
         "masking_noise": plan.masking_noise.is_some(),
         "trials": meets.n_trials,
         "minutes": meets.minutes,
@@ -87,6 +86,12 @@ fn in_words(study: &StudyPlan, meets: &StudyPreview, shows_all: bool) -> String 
     )];
     if plan.consent.trim().is_empty() {
         lines.push("There is no consent text.".to_owned());
+    }
+    if has_placeholder_consent(plan) {
+        lines.push(
+            "The consent text is the placeholder of the built-in plan; replace `consent` before you invite people."
+                .to_owned(),
+        );
     }
     if plan.masking_noise.is_some() {
         lines.push("Masking noise plays on a second output, which the window asks for.".to_owned());
@@ -127,5 +132,8 @@ fn part_line(part: &PartPreview) -> String {
     } else {
         format!("\n  {} stimuli: {}", part.stimuli.len(), part.stimuli.join(", "))
     };
-    line + &breaks + &stimuli
+    let touch = part.touch_mm.map_or_else(String::new, |least_mm| {
+        format!("\n  an answer needs a stroke of {least_mm} mm over each stimulus")
+    });
+    line + &breaks + &stimuli + &touch
 }

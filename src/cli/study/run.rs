@@ -2,14 +2,15 @@
 
 use std::path::PathBuf;
 
-use anyhow::Context as _;
+use anyhow::anyhow;
 use serde_json::{Value, json};
 use shagreen_core::people::study::simulated::{Observers, World};
 use shagreen_core::words::counted;
-use shagreen_studio::file::in_file;
-use shagreen_studio::study::logs::usual_log_folder;
-use shagreen_studio::study::plans::load_plan;
-use shagreen_studio::study::simulation::{Simulation, simulated_logs, write_simulated_logs};
+use shagreen_studio::study::logs::usual_simulated_log_folder;
+use shagreen_studio::study::plans::load_plan_with;
+use shagreen_studio::study::simulation::{
+    ReplacesLogs, Simulation, replace_simulated_logs, simulated_logs, write_simulated_logs,
+};
 
 use crate::cli::output::{self, Usage};
 use crate::cli::progress::Progress;
@@ -38,9 +39,12 @@ pub(crate) struct Args {
     /// Random seed; the same seed gives the same logs.
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Folder for the logs. Default: beside the plan, with its name and "-logs".
+    /// Folder for the logs. Default: beside the plan, with its name and "-logs-simulated".
     #[arg(short, long, value_name = "FOLDER")]
     out: Option<PathBuf>,
+    /// Replace logs of simulated participants in the folder. Logs of people are never replaced.
+    #[arg(long)]
+    replace: bool,
     #[command(flatten)]
     textures: TextureArgs,
     /// Print the result as one JSON object.
@@ -53,7 +57,6 @@ pub(super) fn points(text: &str) -> Result<f64, String> {
 }
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let study = load_plan(&args.plan)?;
     let Some(n_participants) = args.simulated else {
         let text = format!(
             "people answer in the window: open the plan with `shagreen {}`; or give --simulated N for simulated participants",
@@ -61,8 +64,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         );
         return Err(Usage(text).into());
     };
-    study.check_textures(&args.textures.load()?).with_context(|| in_file(&args.plan))?;
-    let folder = args.out.clone().unwrap_or_else(|| usual_log_folder(&args.plan));
+    let study = load_plan_with(&args.plan, &args.textures.load()?)?;
+    let folder = args.out.clone().unwrap_or_else(|| usual_simulated_log_folder(&args.plan));
     let simulation = Simulation {
         n_participants,
         seed: args.seed,
@@ -77,7 +80,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         true
     })?;
     progress.finish();
-    let files = write_simulated_logs(&study, &simulated, &folder)?;
+    let files = if args.replace {
+        replace_simulated_logs(&study, &simulated, &folder)?
+    } else {
+        write_simulated_logs(&study, &simulated, &folder).map_err(with_option)?
+    };
     let names: Vec<String> = files.iter().map(|path| path.display().to_string()).collect();
     output::print(
         args.json,
@@ -102,6 +109,17 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         },
     );
     Ok(())
+}
+
+/// Names the option that replaces logs, where it is missing.
+fn with_option(error: anyhow::Error) -> anyhow::Error {
+    match error.downcast_ref::<ReplacesLogs>() {
+        Some(ReplacesLogs { path }) => anyhow!(
+            "the folder has logs of simulated participants; choose another folder with --out, or replace them with --replace: {}",
+            path.display()
+        ),
+        None => error,
+    }
 }
 
 /// What the participants perceived.

@@ -1,6 +1,9 @@
 //! List of the authored textures and their snapshots.
 
-use egui::{Button, Id, Label, Rect, RichText, Role, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Button, Id, Label, Rect, RichText, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2,
+    vec2,
+};
 use shagreen_core::space::{MIDDLE, SpacePoint};
 use shagreen_formats::project::AuthoredTexture;
 use shagreen_studio::axes::axis_poles;
@@ -15,7 +18,7 @@ use crate::command::Command;
 use crate::look::theme::{RADIUS, SCROLL_BAR_ROOM, tokens};
 use crate::panel::Panel;
 use crate::state::edit::{Edit, name_of_snapshot};
-use crate::strings::{self, authored as words};
+use crate::strings::{self, authored as words, compare};
 
 /// Height of a row, in points.
 const ROW: f32 = 22.0;
@@ -92,10 +95,15 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
     let t = tokens(ui.ctx());
     let mut commands = Vec::new();
     let (area, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+    // In a comparison, another texture than the selected one is audible. In a blind one, nothing tells which.
+    let is_marked = !panel.compare.is_hidden() && panel.inspected().key == texture.key;
     response
-        .widget_info(|| WidgetInfo::selected(Role::Button, true, is_selected, words::select(&texture.name)));
-    if is_selected {
+        .widget_info(|| WidgetInfo::selected(Role::Button, true, is_marked, words::select(&texture.name)));
+    if is_marked {
         ui.painter().rect_filled(area, f32::from(RADIUS), t.chosen);
+    } else if is_selected {
+        let outline = Stroke::new(1.5, t.chosen);
+        ui.painter().rect_stroke(area, f32::from(RADIUS), outline, StrokeKind::Inside);
     } else if response.hovered() || response.has_focus() || response.context_menu_opened() {
         ui.painter().rect_filled(area, f32::from(RADIUS), t.raised);
     }
@@ -103,7 +111,7 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
     ui.painter().circle_filled(dot, 6.5, t.background);
     ui.painter().circle_filled(dot, 5.0, t.authored[usize::from(texture.color)]);
     let mut room = Rect::from_min_max(pos2(area.left() + 24.0, area.top() + 2.0), area.max);
-    let color = if is_selected { t.on_chosen } else { t.text };
+    let color = if is_marked { t.on_chosen } else { t.text };
     if let Some(side) = panel.compare.side_of(texture.key) {
         let corner = pos2(area.right() - 5.0, area.center().y);
         let font = egui::FontId::proportional(11.5);
@@ -130,7 +138,8 @@ fn row(ui: &mut Ui, panel: &Panel<'_>, texture: &AuthoredTexture, is_selected: b
     let mut help =
         format!("{}\n{}", texture.name, strings::place_in_words(texture.at, panel.session.poles()));
     let own = own_help(panel, texture).unwrap_or_default();
-    for more in [texture.tags.join(", ").as_str(), &texture.notes, own] {
+    let selected = if is_selected && !is_marked { compare::SELECTED } else { "" };
+    for more in [texture.tags.join(", ").as_str(), &texture.notes, own, selected] {
         if !more.is_empty() {
             help = format!("{help}\n{more}");
         }

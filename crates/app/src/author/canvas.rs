@@ -82,9 +82,6 @@ pub struct CanvasState {
     is_pressed_beside: bool,
 }
 
-/// Canvas width below which the path controls take a second row, in points. That row is reserved before the first path
-/// point exists, so that the canvas does not move while points are placed.
-const WRAPPING_WIDTH: f32 = 900.0;
 /// Canvas width below which the controls need the width of all rows, in points.
 const NARROW_WIDTH: f32 = 520.0;
 /// Height of one row of controls, in points.
@@ -116,9 +113,7 @@ pub fn canvas_ui(
     let (outer, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::CANVAS));
     // Further rows of controls move the canvas down, so that they cover no texture.
-    let may_wrap = state.tool.is_on && outer.width() < WRAPPING_WIDTH;
-    let bar_height = state.bar.as_ref().map_or(0.0, Rect::height);
-    let bar_height = bar_height.max(if may_wrap { 2.0 * BAR_ROW } else { BAR_ROW });
+    let bar_height = state.bar.as_ref().map_or(0.0, Rect::height).max(BAR_ROW);
     // The picture of a texture at the upper edge of the space is below the controls, too.
     let top = BAR_TOP + bar_height + radius_for(outer.height()) + BELOW_BAR;
     let left = LEFT_OF_SITES + radius_for(outer.height());

@@ -70,6 +70,8 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>, height: f32) -> Vec<Command> {
     if let Some(side) = panel.compare.heard() {
         commands.extend(compared_ui(ui, panel, side));
         if panel.compare.is_hidden() {
+            let help = RichText::new(words::HIDDEN_HELP).color(tokens(ui.ctx()).text_weak);
+            ui.add(Label::new(help).wrap().selectable(false));
             return commands;
         }
     }

@@ -20,7 +20,7 @@ use crate::author::texture_menu::{duplicated, relief_button, remove_button};
 use crate::author::texture_picture::picture_ui;
 use crate::author::whole_space::whole_space_ui;
 use crate::command::Command;
-use crate::look::plot::title;
+use crate::look::plot::{legend_entry_ui, title};
 use crate::look::sheet_frame::sheet;
 use crate::look::spectrum_plot::{SpectrumLine, spectra_plot};
 use crate::look::text_selection::select_all;
@@ -191,15 +191,10 @@ fn foot_ui(ui: &mut Ui, panel: &Panel<'_>, texture: usize) -> Vec<Command> {
 
 /// Legend of the spectra by speed, from slow to fast.
 fn speeds_ui(ui: &mut Ui, speeds_mm_per_s: &[f64], color: impl Fn(usize) -> Color32) {
-    let t = tokens(ui.ctx());
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().item_spacing = vec2(4.0, 0.0);
         for (i, speed) in speeds_mm_per_s.iter().enumerate() {
-            let (area, _) = ui.allocate_exact_size(vec2(8.0, 8.0), Sense::hover());
-            ui.painter().circle_filled(area.center(), 3.5, color(i));
-            let speed = RichText::new(words::speed(*speed)).small().color(t.text_weak);
-            ui.add(Label::new(speed).selectable(false));
-            ui.add_space(GAP);
+            legend_entry_ui(ui, color(i), &words::speed(*speed));
         }
     });
 }

@@ -11,6 +11,8 @@ pub enum StudiesCommand {
     Open(Vec<Source>),
     /// Starts or resumes a session over the whole window.
     Start(SessionStart),
+    /// Saves the logs of the open plan in this folder from now on.
+    ChooseLogFolder(PathBuf),
     /// Hands the judgments of the analyzed participants to the Build workspace.
     UseInBuild,
     /// Remembers the measured scale of the screen, in pixels per millimeter.

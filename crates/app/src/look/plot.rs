@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use egui::{Color32, Label, Rangef, RichText, Sense, Ui, vec2};
 use egui_plot::{AxisHints, GridMark, Plot};
 
-use crate::look::theme::tokens;
+use crate::look::theme::{GAP, tokens};
 
 /// Draws a heading, and the unit of the plot below it.
 pub(crate) fn title(ui: &mut Ui, text: &str, unit: &str) {
@@ -14,6 +14,15 @@ pub(crate) fn title(ui: &mut Ui, text: &str, unit: &str) {
         ui.add(Label::new(RichText::new(text).strong()).selectable(false));
         ui.add(Label::new(RichText::new(unit).small().color(t.text_weak)).selectable(false));
     });
+}
+
+/// Draws what a color of a plot means: a dot of the color before the words.
+pub(crate) fn legend_entry_ui(ui: &mut Ui, color: Color32, text: &str) {
+    let (area, _) = ui.allocate_exact_size(vec2(8.0, 8.0), Sense::hover());
+    ui.painter().circle_filled(area.center(), 3.5, color);
+    let text = RichText::new(text).small().color(tokens(ui.ctx()).text_weak);
+    ui.add(Label::new(text).selectable(false));
+    ui.add_space(GAP);
 }
 
 /// Distances between labels of the horizontal and of the vertical axis up to which they are hidden and from which they

@@ -1,8 +1,9 @@
-//! Common parts of all sheets: the frame over the window, and the key that closes them.
+//! Common parts of all sheets: the frame over the window, the buttons at its foot, and the key that closes them.
 
 use egui::{Context, Frame, Id, Key, Modal, ModalResponse, Modifiers, Order, Popup, Ui};
 
 use crate::look::theme::tokens;
+use crate::look::together::at_right_ui;
 
 /// Draws a modal sheet over the window, with the id `name` and the given `content`. Lists and menus are above it. While
 /// one of them is open, Escape closes it and not the sheet.
@@ -26,6 +27,11 @@ pub(crate) fn sheet<R>(
         ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Escape));
     }
     shown
+}
+
+/// Draws the buttons at the foot of a sheet, in its lower right corner. The one that closes the sheet comes last.
+pub(crate) fn foot_ui<R>(ui: &mut Ui, buttons: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.horizontal(|ui| at_right_ui(ui, buttons)).inner
 }
 
 /// Whether the key that closes a sheet (Escape) was pressed. The key press is consumed.

@@ -250,24 +250,27 @@ fn style(t: &Tokens, mut visuals: Visuals) -> Style {
     style
 }
 
+/// Relative luminance according to WCAG 2.1.
+#[cfg(test)]
+fn luminance(color: Color32) -> f64 {
+    let linear = |c: u8| {
+        let c = f64::from(c) / 255.0;
+        if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+    };
+    0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
+}
+
+/// Contrast of two opaque colors according to WCAG 2.1, 1 to 21.
+#[cfg(test)]
+pub(crate) fn contrast(a: Color32, b: Color32) -> f64 {
+    let (a, b) = (luminance(a), luminance(b));
+    (a.max(b) + 0.05) / (a.min(b) + 0.05)
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{DARK, LIGHT, Tokens, map_color, style};
+    use super::{DARK, LIGHT, Tokens, contrast, luminance, map_color, style};
     use egui::{Color32, Style, Visuals};
-
-    /// Relative luminance according to WCAG 2.1.
-    fn luminance(color: Color32) -> f64 {
-        let linear = |c: u8| {
-            let c = f64::from(c) / 255.0;
-            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
-        };
-        0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
-    }
-
-    fn contrast(a: Color32, b: Color32) -> f64 {
-        let (a, b) = (luminance(a), luminance(b));
-        (a.max(b) + 0.05) / (a.min(b) + 0.05)
-    }
 
     /// Pairs of text and surface in the window that are illegible (WCAG AA: contrast below 4.5 to 1). Also pairs of a
     /// mark and its surface that are indistinguishable (below 3 to 1).

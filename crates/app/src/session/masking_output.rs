@@ -28,6 +28,7 @@ const PINK_WHITE: f64 = 0.1848;
 
 /// The second output while it plays the noise. Dropping it closes the output.
 pub struct MaskingOutput {
+    id: String,
     noise: MaskingNoise,
     opening: Option<Receiver<Result<(Handle, Running), DeviceError>>>,
     output: Option<(Handle, Running)>,
@@ -49,8 +50,19 @@ impl MaskingOutput {
             friction: None,
             take_over: false,
         };
-        let opening = Some(in_background(ctx.clone(), move || open(&id, options)));
-        Self { noise, opening, output: None, signal: None, played: None, problem: None }
+        let wanted = id.clone();
+        let opening = Some(in_background(ctx.clone(), move || open(&wanted, options)));
+        Self { id, noise, opening, output: None, signal: None, played: None, problem: None }
+    }
+
+    /// Id of the output.
+    pub fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// Whether the noise plays, or the output is still being opened for it.
+    pub fn plays(&self) -> bool {
+        self.problem.is_none()
     }
 
     /// Why there is no noise.

@@ -6,7 +6,7 @@ use egui::{Align, Context, Grid, Label, Layout, RichText, Ui, vec2};
 use shagreen_studio::about::{LICENSE, NAME, PARTS, VERSION, repository};
 
 use crate::command::Command;
-use crate::look::sheet_frame::sheet;
+use crate::look::sheet_frame::{foot_ui, sheet};
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::state::files::StoragePaths;
 use crate::strings::{about as strings, help};
@@ -71,7 +71,7 @@ impl AboutSheet {
         }
         row_ui(ui, strings::LOG, |ui| weak_ui(ui, strings::NO_LOG));
         ui.add_space(GROUP_GAP);
-        ui.button(help::CLOSE).clicked()
+        foot_ui(ui, |ui| ui.button(help::CLOSE).clicked())
     }
 }
 

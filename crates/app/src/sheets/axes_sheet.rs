@@ -19,8 +19,9 @@ use self::list_ui::list_ui;
 use crate::command::Command;
 use crate::command::axes::AxesCommand;
 use crate::look::motion::busy_ui;
+use crate::look::primary::primary_ui;
 use crate::look::scroll_to_focus::scroll_to_focus;
-use crate::look::sheet_frame::sheet;
+use crate::look::sheet_frame::{foot_ui, sheet};
 use crate::look::theme::{GAP, SCROLL_BAR_ROOM, tokens};
 use crate::state::background::LatestJob;
 use crate::strings::{axes as strings, sentence};
@@ -174,13 +175,8 @@ impl AxesSheet {
             (true, n) => (strings::n_placed(n, self.library.textures.len()), t.text_weak),
         };
         ui.add(Label::new(RichText::new(text).color(color)).selectable(false));
-        ui.horizontal(|ui| {
-            let can_use = n_placed > 0;
-            let color = if can_use { t.on_accent } else { t.text_weak };
-            let button = Button::new(RichText::new(strings::USE).color(color));
-            let button = if can_use { button.fill(t.accent) } else { button };
-            let button = ui.add_enabled(can_use, button).on_hover_text(strings::USE_HELP);
-            if button.clicked() {
+        foot_ui(ui, |ui| {
+            if primary_ui(ui, strings::USE, n_placed > 0).on_hover_text(strings::USE_HELP).clicked() {
                 let chosen = AxesCommand::Use(self.chosen.clone());
                 commands.extend([Command::CloseSheet, Command::Axes(chosen)]);
             }

@@ -1,9 +1,10 @@
 //! Question before saving over a project file that was changed by another window or program.
 
-use egui::{Button, Context, Grid, Label, RichText, ScrollArea};
+use egui::{Context, Grid, Label, RichText, ScrollArea};
 
 use crate::command::{Command, FileCommand};
-use crate::look::sheet_frame::sheet;
+use crate::look::primary::primary_ui;
+use crate::look::sheet_frame::{foot_ui, sheet};
 use crate::look::theme::{GAP, tokens};
 use crate::state::conflict::Conflict;
 use crate::strings::conflict as strings;
@@ -37,8 +38,8 @@ pub(crate) fn conflict_ui(ctx: &Context, conflict: &Conflict, project: &str) -> 
             });
         }
         ui.add_space(GAP);
-        ui.horizontal(|ui| {
-            let save_as = ui.add(Button::new(RichText::new(SAVE_AS).color(t.on_accent)).fill(t.accent));
+        foot_ui(ui, |ui| {
+            let save_as = primary_ui(ui, SAVE_AS, true);
             if ui.memory(|memory| memory.focused().is_none()) {
                 save_as.request_focus();
             }

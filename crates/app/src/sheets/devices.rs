@@ -18,7 +18,7 @@ use self::calibration_ui::Measurement;
 use crate::browse::Browse;
 use crate::command::Command;
 use crate::look::scroll_to_focus::scroll_to_focus;
-use crate::look::sheet_frame::sheet;
+use crate::look::sheet_frame::{foot_ui, sheet};
 use crate::look::theme::{GAP, GROUP_GAP, SCROLL_BAR_ROOM, tokens};
 use crate::session::Session;
 use crate::state::rig::{Mounted, Rig};
@@ -26,6 +26,8 @@ use crate::strings::devices as strings;
 
 /// Margin around the sheet, in points.
 const AROUND: f32 = 24.0;
+/// Height of the row with the button that closes the sheet, with the space above it, in points.
+const FOOT: f32 = 36.0;
 /// Maximum size of the sheet, in points.
 const MAX_SIZE: egui::Vec2 = vec2(1040.0, 760.0);
 
@@ -91,17 +93,10 @@ impl DevicesSheet {
 
     fn content_ui(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         let mut commands = Vec::new();
-        ui.horizontal(|ui| {
-            ui.add(Label::new(RichText::new(strings::TITLE).heading().strong()).selectable(false));
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                let close = Button::new(strings::CLOSE);
-                if ui.add_enabled(!self.measurement.is_running(), close).clicked() {
-                    commands.push(Command::CloseSheet);
-                }
-            });
-        });
+        ui.add(Label::new(RichText::new(strings::TITLE).heading().strong()).selectable(false));
         ui.add_space(GAP);
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let height = ui.available_height() - FOOT;
+        ScrollArea::vertical().max_height(height).auto_shrink(false).show(ui, |ui| {
             let width = 0.5 * (ui.available_width() - 2.0 * GROUP_GAP - SCROLL_BAR_ROOM);
             let column = Layout::top_down(Align::Min);
             ui.horizontal_top(|ui| {
@@ -126,6 +121,12 @@ impl DevicesSheet {
             });
             scroll_to_focus(ui);
         });
+        ui.add_space(GAP);
+        let is_free = !self.measurement.is_running();
+        let close = foot_ui(ui, |ui| ui.add_enabled(is_free, Button::new(strings::CLOSE)));
+        if close.clicked() {
+            commands.push(Command::CloseSheet);
+        }
         commands
     }
 }

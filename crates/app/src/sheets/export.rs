@@ -17,8 +17,10 @@ use shagreen_studio::export::{self, FormatInfo, WAV};
 
 use crate::command::Command;
 use crate::command::signals::SignalsCommand;
+use crate::look::primary::primary_ui;
 use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, Tokens, tokens};
+use crate::look::together::at_right_ui;
 use crate::panel::Panel;
 use crate::session::authored_sources::AuthoredSources;
 use crate::sheets::export::job::{Format, Job, Outcome, Summary, What};
@@ -211,11 +213,13 @@ impl ExportSheet {
             let exists = matches!(self.state, State::Exists(_));
             let is_saved = matches!(self.state, State::Saved(_));
             let can_save = !self.path.text().is_empty() && is_enabled && !is_saved && !exists;
-            let save = ui.add_enabled(can_save, Button::new(strings::EXPORT_NOW));
-            let close = Button::new(if is_saved { import::CLOSE } else { import::CANCEL });
-            let is_closed = ui.add_enabled(is_enabled, close).clicked();
             // Not where the button before was, or a double click would replace files.
             let replaces = exists && ui.button(import::REPLACE).clicked();
+            let (save, is_closed) = at_right_ui(ui, |ui| {
+                let save = primary_ui(ui, strings::EXPORT_NOW, can_save);
+                let close = Button::new(if is_saved { import::CLOSE } else { import::CANCEL });
+                (save, ui.add_enabled(is_enabled, close).clicked())
+            });
             if save.clicked() || (can_save && input.is_entered) || replaces {
                 self.save(panel, replaces, ui.ctx());
             }

@@ -12,6 +12,7 @@ use shagreen_formats::project::Project;
 use crate::command::{Command, FileCommand};
 use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, RADIUS, SCROLL_BAR_ROOM, Tokens, tokens};
+use crate::look::together::at_right_ui;
 use crate::state::gallery_pictures::GalleryPictures;
 use crate::strings::gallery as strings;
 
@@ -69,12 +70,12 @@ impl GallerySheet {
             area.show(ui, |ui| commands.extend(self.cards_ui(ui, t)));
             ui.add_space(GAP);
             ui.horizontal(|ui| {
-                if ui.button(strings::CLOSE).clicked() {
-                    commands.push(Command::CloseSheet);
-                }
                 if self.pictures.is_busy() {
                     let text = RichText::new(strings::MAKING).small().color(t.text_weak);
                     ui.add(Label::new(text).selectable(false));
+                }
+                if at_right_ui(ui, |ui| ui.button(strings::CLOSE).clicked()) {
+                    commands.push(Command::CloseSheet);
                 }
             });
         });

@@ -5,7 +5,7 @@ use egui_commonmark::{CommonMarkCache, CommonMarkViewer};
 use shagreen_studio::guide::{GuidePage, PAGES};
 
 use crate::command::Command;
-use crate::look::sheet_frame::sheet;
+use crate::look::sheet_frame::{foot_ui, sheet};
 use crate::look::theme::{GAP, RADIUS, SCROLL_BAR_ROOM, tokens};
 use crate::strings::help as strings;
 
@@ -48,7 +48,7 @@ impl GuideSheet {
                 self.page_ui(ui);
             });
             ui.add_space(GAP);
-            if ui.button(strings::CLOSE).clicked() {
+            if foot_ui(ui, |ui| ui.button(strings::CLOSE).clicked()) {
                 commands.push(Command::CloseSheet);
             }
         });

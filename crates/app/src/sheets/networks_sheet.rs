@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use egui::{Button, ComboBox, Context, Grid, Label, RichText, TextEdit, Ui};
+use egui::{ComboBox, Context, Grid, Label, RichText, TextEdit, Ui};
 use shagreen_formats::photo_networks::{ImageNetwork, PhotoNetworks};
 use shagreen_studio::file::one_line;
 use shagreen_studio::models::ModelFolder;
@@ -15,8 +15,10 @@ use crate::command::Command;
 use crate::command::networks::NetworksCommand;
 use crate::look::list::ShowList as _;
 use crate::look::motion::busy_ui;
+use crate::look::primary::primary_ui;
 use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, tokens};
+use crate::look::together::at_right_ui;
 use crate::state::background::{JobPanicked, LatestJob};
 use crate::strings::{help, networks as strings, sentence};
 
@@ -166,22 +168,20 @@ impl NetworksSheet {
     }
 
     fn foot_ui(&mut self, ui: &mut Ui) -> Vec<Command> {
-        let t = tokens(ui.ctx());
         let mut commands = Vec::new();
         ui.horizontal(|ui| {
             let is_free = self.checked.is_none();
-            let color = if is_free { t.on_accent } else { t.text_weak };
-            let button = Button::new(RichText::new(strings::USE).color(color));
-            let button = if is_free { button.fill(t.accent) } else { button };
-            if ui.add_enabled(is_free, button).on_hover_text(strings::USE_HELP).clicked() {
-                self.check(ui.ctx());
-            }
-            if ui.button(help::CLOSE).clicked() {
-                commands.push(Command::CloseSheet);
-            }
-            if self.checked.is_some() {
+            if !is_free {
                 busy_ui(ui);
             }
+            at_right_ui(ui, |ui| {
+                if primary_ui(ui, strings::USE, is_free).on_hover_text(strings::USE_HELP).clicked() {
+                    self.check(ui.ctx());
+                }
+                if ui.button(help::CLOSE).clicked() {
+                    commands.push(Command::CloseSheet);
+                }
+            });
         });
         commands
     }

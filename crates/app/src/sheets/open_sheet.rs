@@ -12,7 +12,8 @@ use crate::choices::signals::Slot;
 use crate::command::signals::SignalsCommand;
 use crate::command::stroke::StrokeCommand;
 use crate::command::{Command, FileCommand};
-use crate::look::sheet_frame::sheet;
+use crate::look::primary::primary_ui;
+use crate::look::sheet_frame::{foot_ui, sheet};
 use crate::look::theme::{GAP, tokens};
 use crate::signals::reading::SIGNAL_ENDINGS;
 use crate::state::background::in_background;
@@ -170,9 +171,9 @@ impl OpenSheet {
         let color = if is_opening { t.text_weak } else { t.error };
         ui.add(Label::new(RichText::new(message.unwrap_or_default()).color(color)).wrap());
         let mut open = wanted;
-        ui.horizontal(|ui| {
+        foot_ui(ui, |ui| {
             let is_named = !self.path.trim().is_empty();
-            if ui.add_enabled(is_named && !is_opening, Button::new(strings::OPEN_NOW)).clicked() {
+            if primary_ui(ui, strings::OPEN_NOW, is_named && !is_opening).clicked() {
                 open = Some(self.folder.join(self.path.trim()));
             }
             if ui.button(strings::CANCEL).clicked() {

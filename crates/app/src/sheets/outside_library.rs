@@ -8,7 +8,7 @@ use shagreen_studio::file::{folder_of, shown_name};
 
 use crate::browse::{Asked, BROWSE_WIDTH, Browse};
 use crate::command::{Command, FileCommand, LibraryAnswer};
-use crate::look::sheet_frame::sheet;
+use crate::look::sheet_frame::{foot_ui, sheet};
 use crate::look::theme::{GAP, tokens};
 use crate::state::files::Reading;
 use crate::strings::document as strings;
@@ -64,7 +64,7 @@ impl OutsideLibrarySheet {
         ui.add_space(GAP);
         ui.add_enabled_ui(!is_opening, |ui| {
             answer = self.other_ui(ui);
-            ui.horizontal(|ui| {
+            foot_ui(ui, |ui| {
                 let read = ui.button(strings::READ_LIBRARY).on_hover_text(strings::READ_LIBRARY_HELP);
                 if read.clicked() {
                     answer = Some(LibraryAnswer::Read);

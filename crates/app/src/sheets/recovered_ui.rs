@@ -5,7 +5,7 @@ use std::time::SystemTime;
 use egui::{Context, Label, RichText};
 
 use crate::command::{Command, FileCommand};
-use crate::look::sheet_frame::sheet;
+use crate::look::sheet_frame::{foot_ui, sheet};
 use crate::look::theme::{GAP, tokens};
 use crate::state::recovery::Leftover;
 use crate::strings::document as strings;
@@ -50,7 +50,7 @@ pub(crate) fn recovered_ui(ctx: &Context, leftovers: &[Leftover]) -> Vec<Command
             });
         }
         ui.add_space(GAP);
-        if ui.button(strings::LATER).clicked() {
+        if foot_ui(ui, |ui| ui.button(strings::LATER).clicked()) {
             commands.push(Command::CloseSheet);
         }
     });

@@ -6,7 +6,7 @@ use shagreen_core::surfaces::prompt::title;
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
 use crate::command::relief::{ReliefCommand, ReliefOf};
-use crate::look::sheet_frame::sheet;
+use crate::look::sheet_frame::{foot_ui, sheet};
 use crate::look::theme::{GAP, tokens};
 use crate::state::source::Source;
 use crate::strings::relief as strings;
@@ -73,7 +73,7 @@ impl ReliefChoice {
             commands.push(Command::Relief(begin));
         }
         ui.add_space(GAP);
-        if ui.button(strings::CANCEL).clicked() {
+        if foot_ui(ui, |ui| ui.button(strings::CANCEL).clicked()) {
             commands.push(Command::CloseSheet);
         }
         commands

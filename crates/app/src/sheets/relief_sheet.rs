@@ -16,8 +16,10 @@ use crate::browse::{Asked, BROWSE_WIDTH, Browse};
 use crate::command::Command;
 use crate::command::relief::{ReliefCommand, ReliefOf};
 use crate::look::motion::busy_ui;
+use crate::look::primary::primary_ui;
 use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, GROUP_GAP, RADIUS, tokens};
+use crate::look::together::at_right_ui;
 use crate::state::background::{JobPanicked, LatestJob};
 use crate::state::own_surface::{OwnSurface, SurfacePicture};
 use crate::state::pad_surface::USUAL_LIGHT;
@@ -266,24 +268,22 @@ impl ReliefSheet {
     }
 
     fn foot_ui(&self, ui: &mut Ui) -> Vec<Command> {
-        let t = tokens(ui.ctx());
         let mut commands = Vec::new();
         ui.horizontal(|ui| {
-            let can_apply = !self.is_busy() && self.target.refusal.is_none();
-            let relief = self.made.as_ref().and_then(|made| made.as_ref().ok()).filter(|_| can_apply);
-            let color = if relief.is_some() { t.on_accent } else { t.text_weak };
-            let apply = Button::new(RichText::new(strings::APPLY).color(color));
-            let apply = if relief.is_some() { apply.fill(t.accent) } else { apply };
-            let is_applied = ui.add_enabled(relief.is_some(), apply).clicked();
-            if let Some(relief) = relief.filter(|_| is_applied) {
-                commands.push(Command::Relief(ReliefCommand::Apply(Arc::clone(relief))));
-            }
-            if ui.button(strings::CANCEL).clicked() {
-                commands.push(Command::CloseSheet);
-            }
             if self.is_busy() {
                 busy_ui(ui);
             }
+            at_right_ui(ui, |ui| {
+                let can_apply = !self.is_busy() && self.target.refusal.is_none();
+                let relief = self.made.as_ref().and_then(|made| made.as_ref().ok()).filter(|_| can_apply);
+                let is_applied = primary_ui(ui, strings::APPLY, relief.is_some()).clicked();
+                if let Some(relief) = relief.filter(|_| is_applied) {
+                    commands.push(Command::Relief(ReliefCommand::Apply(Arc::clone(relief))));
+                }
+                if ui.button(strings::CANCEL).clicked() {
+                    commands.push(Command::CloseSheet);
+                }
+            });
         });
         commands
     }

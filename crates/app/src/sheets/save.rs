@@ -11,8 +11,10 @@ use shagreen_formats::library::{Library, Provenance};
 use shagreen_formats::project::{EXTENSION, Project, ProjectLibrary};
 
 use crate::command::{Command, FileCommand};
+use crate::look::primary::primary_ui;
 use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, Tokens, tokens};
+use crate::look::together::at_right_ui;
 use crate::sheets::path_field::{PathField, PathTexts, completed};
 use crate::sheets::save::content::{Content, Outcome, write};
 use crate::state::background::in_background;
@@ -168,13 +170,16 @@ impl SaveSheet {
             let exists = matches!(self.state, State::Exists);
             let is_saved = matches!(self.state, State::Saved(_));
             let can_save = !self.path.text().is_empty() && !is_saving && !is_saved && !exists;
-            let save = ui.add_enabled(can_save, Button::new(strings::SAVE));
-            let close = Button::new(if is_saved { strings::CLOSE } else { strings::CANCEL });
-            if ui.add_enabled(!is_saving, close).clicked() {
-                commands.push(Command::CloseSheet);
-            }
             // Not where the button before was, or a double click would replace the file.
             let replaces = exists && ui.button(strings::REPLACE).clicked();
+            let save = at_right_ui(ui, |ui| {
+                let save = primary_ui(ui, strings::SAVE, can_save);
+                let close = Button::new(if is_saved { strings::CLOSE } else { strings::CANCEL });
+                if ui.add_enabled(!is_saving, close).clicked() {
+                    commands.push(Command::CloseSheet);
+                }
+                save
+            });
             if save.clicked() || (can_save && input.is_entered) || replaces {
                 self.save(library, replaces, ui.ctx());
             }

@@ -3,7 +3,7 @@
 use egui::{Color32, Context, Grid, Label, RichText, TextStyle, Ui};
 
 use crate::command::{Command, listed};
-use crate::look::sheet_frame::sheet;
+use crate::look::sheet_frame::{foot_ui, sheet};
 use crate::look::theme::{GAP, tokens};
 use crate::strings::help as strings;
 
@@ -51,7 +51,7 @@ pub(crate) fn shortcuts_ui(ctx: &Context) -> Option<Command> {
             }
         });
         ui.add_space(GAP);
-        if ui.button(strings::CLOSE).clicked() {
+        if foot_ui(ui, |ui| ui.button(strings::CLOSE).clicked()) {
             asked = Some(Command::CloseSheet);
         }
     });

@@ -1,17 +1,17 @@
 //! Question before unsaved work would be lost.
 
-use egui::{Button, Context, Label, RichText};
+use egui::{Context, Label, RichText};
 
 use crate::command::{Command, FileCommand};
-use crate::look::sheet_frame::sheet;
-use crate::look::theme::{GAP, tokens};
+use crate::look::primary::primary_ui;
+use crate::look::sheet_frame::{foot_ui, sheet};
+use crate::look::theme::GAP;
 use crate::state::leave::Leave;
 use crate::strings::document as strings;
 
 /// Draws the question over the window; returns the requested commands. `is_changed` states whether the project has
 /// unsaved changes; otherwise only painted signals would be lost, which are not part of a project.
 pub(crate) fn leaving_ui(ctx: &Context, leave: Leave, project: &str, is_changed: bool) -> Vec<Command> {
-    let t = tokens(ctx);
     let mut commands = Vec::new();
     sheet(ctx, "leaving", |ui| {
         ui.set_width(420.0);
@@ -22,7 +22,7 @@ pub(crate) fn leaving_ui(ctx: &Context, leave: Leave, project: &str, is_changed:
             if is_changed { strings::would_be_lost(project) } else { strings::PAINTING_LOST.to_owned() };
         ui.add(Label::new(lost).wrap());
         ui.add_space(GAP);
-        ui.horizontal(|ui| {
+        foot_ui(ui, |ui| {
             if !is_changed {
                 if ui.button(strings::LEAVE_IT).clicked() {
                     commands.push(Command::File(FileCommand::LeaveUnsaved(leave)));
@@ -32,8 +32,7 @@ pub(crate) fn leaving_ui(ctx: &Context, leave: Leave, project: &str, is_changed:
                 }
                 return;
             }
-            let save = Button::new(RichText::new(strings::SAVE_FIRST).color(t.on_accent)).fill(t.accent);
-            let save = ui.add(save);
+            let save = primary_ui(ui, strings::SAVE_FIRST, true);
             if ui.memory(|memory| memory.focused().is_none()) {
                 save.request_focus();
             }

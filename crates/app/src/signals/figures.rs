@@ -196,6 +196,7 @@ pub(super) fn features_figure(compared: &Compared, names: [&str; 2]) -> Figure {
         columns: differences::FEATURE_COLUMNS.map(str::to_owned).to_vec(),
         rows: Feature::ALL.into_iter().map(row).collect(),
         decimals: 3,
+        n_counts: 0,
         source: differences::features_source(names),
     })
 }

@@ -100,6 +100,7 @@ mod tests {
                 columns: vec![name.to_owned()],
                 rows: vec![("a".to_owned(), vec![Some(1.0)])],
                 decimals: 1,
+                n_counts: 0,
                 source: String::new(),
             })
         };

@@ -111,10 +111,10 @@ pub const SAVE_CSV: &str = "Save CSV…";
 pub const RATED_PAIR: &str = "Adjective pair";
 pub const SAVE_TITLE: &str = "Save figure";
 pub const SAVE_PATH: &str = "Path of the figure file";
-pub const SAVE_HINT: &str = "/path/to/figure";
+pub const SAVE_HINT: &str = "e.g. /path/to/figure";
 pub const BLANK_TITLE: &str = "Save questionnaire";
 pub const BLANK_PATH: &str = "Path of the questionnaire file";
-pub const BLANK_HINT: &str = "/path/to/ratings.csv";
+pub const BLANK_HINT: &str = "e.g. /path/to/ratings.csv";
 pub const BLANK_EXISTS: &str =
     "A blank file of this kind exists at this path. Replace it, or choose another path.";
 pub const NOT_BLANK: &str =

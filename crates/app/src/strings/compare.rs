@@ -6,6 +6,9 @@ pub const BLIND: &str = "Blind";
 pub const BLIND_HELP: &str =
     "Assigns the two textures to A and B at random and hides the assignment, until you clear this box";
 pub const HIDDEN: &str = "Hidden (blind)";
+/// Empty part of the inspector in a blind comparison.
+pub const HIDDEN_HELP: &str = "The comparison is blind: name, position, shape and contributions of the audible texture are hidden until it ends. Play A, B and X with the buttons on the left, and choose which of A and B is X.";
+pub const SELECTED: &str = "Selected: edits apply to this texture after the comparison.";
 pub const EDIT: &str = "Edit";
 pub const EDIT_HELP: &str = "Ends the comparison and selects this texture, so that you can edit it.";
 pub const END: &str = "End comparison";

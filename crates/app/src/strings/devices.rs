@@ -26,6 +26,9 @@ pub const TONE_HELP: &str = "Plays a sine with this acceleration amplitude for 2
 // Latency.
 pub const LATENCY: &str = "Latency, pen to output";
 pub const LATENCY_UNIT: &str = "ms";
+/// Names of the lines of the graph.
+pub const LATENCY_OF_STROKES: &str = "strokes";
+pub const LATENCY_OF_TAPS: &str = "taps";
 pub const NO_TOUCH: &str =
     "Stroke the pad with the mouse or a pen: the latency of every touch then appears here.";
 
@@ -47,7 +50,7 @@ pub const FULL_SCALE_HELP: &str = "Acceleration that drives the output to full s
 /// Kind of file in the dialog of the system.
 pub const PROFILES: &str = "Actuator profiles";
 pub const PROFILE_PATH: &str = "Profile file";
-pub const PROFILE_HINT: &str = "profile.toml";
+pub const PROFILE_HINT: &str = "e.g. profile.toml";
 pub const OPEN_PROFILE: &str = "Open";
 pub const READING_BROKEN: &str = "reading the profile stopped unexpectedly; try again";
 
@@ -122,6 +125,11 @@ pub fn channel(channel_idx: usize) -> String {
 pub fn stream(rate_hz: u32, channels: u16, block_frames: Option<u32>) -> String {
     let blocks = block_frames.map_or(String::new(), |frames| format!(", blocks of {frames} frames"));
     format!("{rate_hz} Hz, {channels} channels{blocks}")
+}
+
+/// Highest latencies that are not felt, as lines of the graph.
+pub fn latency_limits(stroke_ms: f32, tap_ms: f32) -> String {
+    format!("limits: {stroke_ms:.0} ms for strokes, {tap_ms:.0} ms for taps")
 }
 
 /// Stroke latency of the last touch, and the highest since the output was opened.

@@ -39,7 +39,7 @@ pub const OPEN_TITLE: &str = "Open a project or library";
 pub const OPEN_KIND: &str = "Projects and libraries";
 /// Accessible name of the path field.
 pub const OPEN_PATH: &str = "File to open";
-pub const OPEN_HINT: &str = "woods.shagreen or library.json";
+pub const OPEN_HINT: &str = "e.g. woods.shagreen or library.json";
 pub const OPEN_NOW: &str = "Open";
 pub const UP: &str = "Parent folder";
 pub const LISTING: &str = "Reading the folder…";
@@ -59,7 +59,7 @@ pub const OPEN_WITHOUT: &str = "Open without";
 pub const OPEN_WITHOUT_HELP: &str = "Opens a copy of the project with the starter library. Textures of the other library are missing, and its file is not read.";
 /// Accessible name of the path field.
 pub const OTHER_LIBRARY: &str = "Library file";
-pub const OTHER_LIBRARY_HINT: &str = "library.json";
+pub const OTHER_LIBRARY_HINT: &str = "e.g. library.json";
 pub const USE_LIBRARY: &str = "Use this library";
 
 /// Question before a project reads a library.
@@ -78,7 +78,7 @@ pub const SAVE_FIRST: &str = "Save";
 pub const DO_NOT_SAVE: &str = "Don't save";
 pub const SAVE_TITLE: &str = "Save the project";
 pub const SAVE_PATH: &str = "Project file";
-pub const SAVE_HINT: &str = "woods.shagreen";
+pub const SAVE_HINT: &str = "e.g. woods.shagreen";
 
 // Recovery.
 pub const RECOVERED_TITLE: &str = "Unsaved work";

@@ -6,12 +6,12 @@ pub const TITLE: &str = "Export textures";
 pub const EXPORT_NOW: &str = "Export";
 /// Accessible name of the path field.
 pub const PATH: &str = "Path of the exported file";
-pub const HINT: &str = "/path/to/texture";
+pub const HINT: &str = "e.g. /path/to/texture";
 pub const LOST: &str = "Not stored in the file:";
 pub const NOTHING_LOST: &str = "The file stores the whole texture.";
 pub const CHECKING: &str = "Checking what the file cannot store…";
 /// Hint of the path of a folder.
-pub const FOLDER_HINT: &str = "/path/to/folder";
+pub const FOLDER_HINT: &str = "e.g. /path/to/folder";
 pub const ALL_HELP: &str = "One file for each authored texture, with its name, in the folder below";
 
 /// Added to the summary of an export into a folder that does not exist.

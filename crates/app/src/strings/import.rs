@@ -128,7 +128,7 @@ pub const NEEDED: &str = "required";
 // Saving.
 pub const SAVE_TITLE: &str = "Save library";
 pub const SAVE_PATH: &str = "Path of the library file";
-pub const SAVE_HINT: &str = "/path/to/library.json";
+pub const SAVE_HINT: &str = "e.g. /path/to/library.json";
 pub const SAVE: &str = "Save";
 pub const REPLACE: &str = "Replace the file";
 pub const EXISTS: &str = "A library file exists at this path. Replace it, or choose another path.";

@@ -11,7 +11,7 @@ pub const PURPOSE: &str = "An image network computes features of a photo; its he
 
 pub const NETWORK: &str = "Image network";
 pub const FILE: &str = "File of ResNet-50";
-pub const FILE_HINT: &str = "resnet50.safetensors, with the tensor names of torchvision";
+pub const FILE_HINT: &str = "e.g. resnet50.safetensors, with the tensor names of torchvision";
 pub const HEADS: &str = "File of the heads";
 const HEADS_HINT: &str = "built-in; or a model from shagreen train photo";
 const HEADS_NEEDED: &str = "a model from shagreen train photo --backbone";

@@ -11,11 +11,13 @@ pub const LENGTH: &str = "Length of the path";
 pub const LENGTH_HELP: &str =
     "Tip distance (mm) or time (s) of a stroke from the first to the last point of the path.";
 pub const ALONG: &str = "Path progress";
+pub const ALONG_LABEL: &str = "Progress by";
 pub const ALONG_HELP: &str =
     "The texture changes along the path with the distance that the tip travels, or with time.";
 pub const DISTANCE: &str = "distance";
 pub const TIME: &str = "time";
 pub const AT_END: &str = "End of the path";
+pub const AT_END_LABEL: &str = "At the end";
 pub const AT_END_HELP: &str = "Behavior when the stroke is longer than the path: hold the last texture, go back along the path, or repeat the path from its first texture.";
 pub const HOLD: &str = "hold";
 pub const TURN: &str = "reverse";

@@ -19,7 +19,7 @@ pub const SAVE_HELP: &str = "Saves the recorded stroke as a CSV table. \"shagree
 pub const WAITS: &str = "stroke here: recording starts with the first touch";
 pub const SAVE_TITLE: &str = "Save the stroke";
 pub const SAVE_PATH: &str = "Path of the stroke file";
-pub const SAVE_HINT: &str = "/path/to/stroke.csv";
+pub const SAVE_HINT: &str = "e.g. /path/to/stroke.csv";
 pub const FILE_NAME: &str = "stroke.csv";
 pub const EXISTS: &str = "A stroke file exists at this path. Replace it, or choose another path.";
 pub const NO_STROKE: &str =
@@ -27,7 +27,7 @@ pub const NO_STROKE: &str =
 pub const OPEN_TITLE: &str = "Open a stroke";
 /// Kind of file in the dialog of the system.
 pub const OPEN_KIND: &str = "Stroke recordings";
-pub const OPEN_HINT: &str = "stroke.csv";
+pub const OPEN_HINT: &str = "e.g. stroke.csv";
 pub const CANCELED: &str = "Opening the stroke was canceled";
 pub const BROKE_OFF: &str = "Reading the stroke stopped unexpectedly; try again";
 pub const NEVER_TOUCHES: &str = "the tip never touches the surface in this stroke; choose another file";

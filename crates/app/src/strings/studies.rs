@@ -63,17 +63,31 @@ pub const NO_SESSIONS: &str = "No session yet.";
 pub const PREPARING: &str = "Preparing the textures…";
 pub const CANCEL: &str = "Cancel";
 pub const DONE_LOG: &str = "done";
+pub const REFUSED_LOG: &str = "did not agree";
 pub const SIMULATED_LOG: &str = "simulated";
 pub const OTHER_PLAN: &str = "of another study, or of an earlier version of the plan";
+pub const LOGS: &str = "Folder of the logs";
+pub const OTHER_PLAN_HERE: &str = "The folder has logs of another study, or of an earlier version of the plan. New sessions need another folder.";
+pub const NEW_FOLDER: &str = "Use a new folder";
+pub const NEW_FOLDER_HELP: &str = "Saves the logs of this version of the plan in a new folder beside the plan. The earlier logs stay where they are.";
+pub const PLACEHOLDER_CONSENT: &str =
+    "The consent text is the placeholder of the built-in plans. Write your own text into the plan file.";
+pub const PLACEHOLDER_QUESTION: &str = "The consent text is the placeholder of the built-in plans, and the participant would read it. Write your own text into the plan file, or start only to try the study.";
+pub const START_ANYWAY: &str = "Start with the placeholder";
 
 // Devices.
 pub const DEVICES: &str = "Before you start";
-pub const OUTPUT_READY: &str = "Output";
-pub const NO_OUTPUT: &str = "No output is open: participants feel nothing. Choose one in Devices.";
-pub const SILENT_OUTPUT: &str =
-    "The silent output is open: participants feel nothing. Choose another in Devices.";
+pub const NO_OUTPUT: &str = "No output is chosen: participants will feel nothing.";
+pub const SILENT_OUTPUT: &str = "The silent output is chosen: participants will feel nothing.";
+pub const OUTPUT_LOST: &str = "The output is lost: participants will feel nothing.";
+pub const OUTPUT_MUTED: &str =
+    "The output is muted: participants will feel nothing. Unmute it in the title bar.";
 pub const NO_ACTUATOR: &str =
-    "The actuator is not known: levels are not calibrated, and the logs name no device profile.";
+    "No actuator is chosen: levels are not calibrated, and the logs name no device profile.";
+pub const NO_LATENCY: &str = "The latency is not measured yet: stroke the pad in Author once. The logs state it after the first stroke.";
+pub const OPEN_DEVICES: &str = "Open Devices";
+pub const OPEN_DEVICES_HELP: &str =
+    "Opens the sheet in which output, actuator and pen are chosen and the latency is shown.";
 pub const MASKING: &str = "Masking noise";
 pub const MASKING_OUTPUT: &str = "Output of the masking noise";
 pub const MASKING_HELP: &str =
@@ -112,6 +126,8 @@ pub const LEAVE: &str = "Leave the study";
 pub const LEAVE_HELP: &str = "Leaves the study after a question (Escape).";
 pub const LEAVE_TITLE: &str = "Leave the study?";
 pub const LEAVE_SAVED: &str = "All answers so far are saved. The session can be resumed later at this trial.";
+pub const LEAVE_BEFORE: &str =
+    "No answer has been given yet, so none is saved. The session can be resumed later.";
 pub const LEAVE_UNSAVED: &str = "The last step is not saved and will be lost. All answers before are saved, and the session can be resumed.";
 pub const LEAVE_PRACTICE: &str = "Answers to practice trials are not saved.";
 pub const LEAVE_PAGE: &str = "Leave…";
@@ -122,6 +138,9 @@ pub const TRY_AGAIN: &str = "Try again";
 pub const CONSENT: &str = "Consent";
 pub const AGREE: &str = "I agree";
 pub const DISAGREE: &str = "I do not agree";
+pub const REFUSED: &str = "You do not take part";
+pub const REFUSED_HELP: &str =
+    "Nothing about you was saved. The log states only the pseudonym, the devices, and that nobody agreed.";
 pub const BEGIN: &str = "Begin";
 pub const CONTINUE: &str = "Continue";
 pub const PRACTICE: &str = "Practice";
@@ -144,6 +163,15 @@ pub const SIMULATION_FAILED: &str =
 
 // The runner: trials.
 pub const SURFACE: &str = "Surface to stroke";
+pub const MOVE_HERE: &str = "Move here to feel the texture";
+pub const MOVE_BOTH: &str = "Move here to feel both halves";
+pub const MOVE_LATER: &str = "The texture will be here";
+pub const SELECT_FIRST: &str = "Select one, then move here";
+pub const STROKED: &str = "They are stroked for you";
+pub const TOUCH_ONE: &str = "Move over the surface to feel the texture before you answer.";
+pub const TOUCH_BOTH: &str = "Move over both halves of the surface before you answer.";
+pub const TOUCH_EACH: &str = "Move over the surface while each texture plays, before you answer.";
+pub const NOTHING_FELT: &str = "The output is closed, so nothing can be felt. Please call the experimenter.";
 pub const NEXT: &str = "Next";
 pub const NEXT_HELP: &str = "Saves the answer and goes on (Enter).";
 pub const REPEAT: &str = "Repeat";
@@ -247,6 +275,31 @@ pub fn masking(color: &str, level_db: f64) -> String {
 /// Why there was no masking noise.
 pub fn masking_failed(reason: &str) -> String {
     format!("There was no masking noise: {reason}")
+}
+
+/// Output of a session.
+pub fn output(name: &str) -> String {
+    format!("Output: {name}")
+}
+
+/// Actuator of a session.
+pub fn actuator(name: &str) -> String {
+    format!("Actuator: {name}")
+}
+
+/// Measured latency of a stroke, in ms.
+pub fn latency(stroke_ms: f32) -> String {
+    format!("Latency: {stroke_ms:.0} ms")
+}
+
+/// Measured latency of a stroke above the limit, both in ms.
+pub fn late(stroke_ms: f32, limit_ms: f32) -> String {
+    format!("{}; above {limit_ms:.0} ms, textures feel detached from the movement.", latency(stroke_ms))
+}
+
+/// What the field with the folder of the logs does; `path` is the folder.
+pub fn logs_help(path: &str) -> String {
+    format!("{path}\nOne file for each participant is saved here. One folder has the logs of one plan.")
 }
 
 /// Measured scale of the screen.
@@ -355,6 +408,20 @@ pub fn quoted(text: &str) -> String {
 /// Stimuli that a participant has not felt yet.
 pub fn feel_first(labels: &[&str]) -> String {
     format!("Feel each texture before you answer. Still missing: {}.", labels.join(", "))
+}
+
+/// Stimuli over which the participant still has to move, by their labels; none if there is only one.
+pub fn touch_first(labels: &[&str]) -> String {
+    if labels.is_empty() {
+        TOUCH_ONE.to_owned()
+    } else {
+        format!("{TOUCH_EACH} Still to be felt: {}.", labels.join(", "))
+    }
+}
+
+/// Label of the surface while a stimulus plays.
+pub fn move_here_to_feel(label: &str) -> String {
+    format!("Move here to feel {label}")
 }
 
 /// Keys with which a task is answered.

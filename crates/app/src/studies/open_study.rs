@@ -57,7 +57,7 @@ fn content(
             let bytes = source.bytes().map_err(anyhow::Error::msg)?;
             // The window system may pass a file without its folder.
             let path = Some(source.path()).filter(|path| path.is_file()).map(std::path::absolute);
-            (StudyPlan::read(&bytes)?, path.transpose()?)
+            (StudyPlan::read_with(&bytes, &textures)?, path.transpose()?)
         }
         Origin::Template(id) => (template(id)?.study, None),
         Origin::OfProject(id) => {

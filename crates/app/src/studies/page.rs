@@ -1,6 +1,7 @@
 //! Page of the Studies workspace: the open plan, its sessions, and the session that runs.
 
 mod devices_ui;
+mod log_folder_ui;
 mod plan_ui;
 mod preview_ui;
 mod results_ui;
@@ -8,21 +9,23 @@ mod running;
 mod scale_ui;
 mod sessions_ui;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use egui::{CentralPanel, Context, Frame, Margin, Panel as Side, ScrollArea, Ui};
 use shagreen_formats::project::Project;
 use shagreen_formats::settings::StudySettings;
+use shagreen_formats::study_plan::has_placeholder_consent;
 use shagreen_studio::study::analysis::{StudyJudgments, StudyReport};
-use shagreen_studio::study::logs::usual_log_folder;
+use shagreen_studio::study::logs::{usual_log_folder, usual_simulated_log_folder};
 use shagreen_studio::study::session::StudySession;
 
-pub use crate::studies::sessions::ListedSession;
+pub use crate::studies::sessions::{ListedSession, SessionState};
 
-pub(crate) use self::scale_ui::points_per_mm;
+pub(crate) use self::scale_ui::{points_per_mm, screen_scale};
 
 use self::devices_ui::devices_ui;
+use self::log_folder_ui::LogFolderField;
 use self::plan_ui::plan_ui;
 use self::preview_ui::preview_ui;
 use self::results_ui::results_ui;
@@ -32,6 +35,7 @@ use self::sessions_ui::sessions_ui;
 
 use crate::browse::Browse;
 use crate::command::Command;
+use crate::command::studies::SessionStart;
 use crate::look::theme::{BUILD_INPUTS_WIDTH, GAP, SCROLL_BAR_ROOM, VERDICT_WIDTH, tokens};
 use crate::panel::Panel;
 use crate::session::MaskingOutput;
@@ -67,6 +71,11 @@ pub struct StudiesPage {
     save_to: String,
     browse: Browse,
     sessions: Sessions,
+    /// Folder that was chosen for the logs of the open plan; `None` for the usual one.
+    logs: Option<PathBuf>,
+    log_folder_field: LogFolderField,
+    /// Session that waits until the experimenter confirms the placeholder of the consent text.
+    unconfirmed: Option<SessionStart>,
     shown: Shown,
     scale: ScaleState,
     analysis: Option<Analysis>,
@@ -177,6 +186,11 @@ impl StudiesPage {
                     self.sessions.clear();
                     self.results = None;
                 }
+                let kept = |path| self.settings.log_folder_of(path).map(PathBuf::from);
+                // Simulated logs must not lie beside those of people.
+                let simulated = |path| self.simulation_seed.map(|_| usual_simulated_log_folder(path));
+                self.logs = open.path.as_deref().and_then(|path| simulated(path).or_else(|| kept(path)));
+                self.unconfirmed = None;
                 self.shown = Shown::Preview;
                 self.save_to = usual_path(&self.folder, &open.study).display().to_string();
                 self.open = Some(open);
@@ -195,7 +209,24 @@ impl StudiesPage {
 
     /// Folder of the logs; `None` for a plan that is not saved yet.
     fn log_folder(&self) -> Option<PathBuf> {
-        self.open.as_ref()?.path.as_deref().map(usual_log_folder)
+        let plan = self.open.as_ref()?.path.as_deref()?;
+        Some(self.logs.clone().unwrap_or_else(|| usual_log_folder(plan)))
+    }
+
+    /// Saves the logs of the open plan in a folder from now on, and lists the sessions in it.
+    pub(crate) fn choose_log_folder(&mut self, folder: PathBuf, ctx: &Context) {
+        self.logs = Some(std::path::absolute(&folder).unwrap_or(folder));
+        (self.failure, self.unconfirmed) = (None, None);
+        (self.analysis, self.results) = (None, None);
+        self.sessions.clear();
+        self.read_sessions(ctx);
+    }
+
+    /// The open plan file with the folder that was chosen for its logs. That of simulated participants is not remembered, or
+    /// people would answer in it later.
+    pub(crate) fn chosen_log_folder(&self) -> Option<(&Path, &Path)> {
+        let chosen = self.open.as_ref()?.path.as_deref().zip(self.logs.as_deref());
+        chosen.filter(|(plan, folder)| *folder != usual_simulated_log_folder(plan))
     }
 
     /// Usual folder of a report: beside the plan.
@@ -208,7 +239,14 @@ impl StudiesPage {
     /// Begins to analyze the sessions of the open study.
     fn analyze(&mut self, ctx: &Context) {
         self.failure = None;
-        self.analysis = self.log_folder().map(|folder| Analysis::begin(folder, ctx));
+        if let Some((folder, open)) = self.log_folder().zip(self.open.as_ref()) {
+            self.analysis = Some(Analysis::begin(folder, open.study.clone(), ctx));
+        }
+    }
+
+    /// Whether participants of the open plan would read the placeholder of a consent text.
+    fn has_placeholder_consent(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| has_placeholder_consent(&open.study.plan))
     }
 
     /// Whether an analysis runs.
@@ -238,8 +276,8 @@ impl StudiesPage {
         });
         Side::right("sessions of a study").exact_size(VERDICT_WIDTH).resizable(false).show(ui, |ui| {
             column(ui, "sessions", &mut |ui| {
-                commands.extend(sessions_ui(ui, self));
                 commands.extend(devices_ui(ui, self, panel.session));
+                commands.extend(sessions_ui(ui, self));
             });
         });
         let frame = Frame::new().fill(t.panel).inner_margin(Margin::same(10));

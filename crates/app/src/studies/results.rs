@@ -7,8 +7,9 @@ use egui::Context;
 use shagreen_studio::figure_files::write_together;
 use shagreen_studio::file::one_line;
 use shagreen_studio::study::analysis::{
-    ParticipantKind, StudyReport, analyze, check_report_files, read_logs, report_files,
+    ParticipantKind, StudyReport, analyze, check_report_files, read_logs_with, report_files,
 };
+use shagreen_studio::study::plans::StudyPlan;
 
 use crate::state::background::in_background;
 use crate::strings::studies as strings;
@@ -32,9 +33,9 @@ pub(super) struct Results {
 pub(super) struct Analysis(Receiver<Result<Vec<StudyReport>, String>>);
 
 impl Analysis {
-    /// Begins to analyze the logs of a folder.
-    pub(super) fn begin(folder: PathBuf, ctx: &Context) -> Self {
-        Self(in_background(ctx.clone(), move || reports(&folder)))
+    /// Begins to analyze the logs of a folder, which belong to a plan.
+    pub(super) fn begin(folder: PathBuf, study: StudyPlan, ctx: &Context) -> Self {
+        Self(in_background(ctx.clone(), move || reports(&folder, &study)))
     }
 
     /// The results once they are computed, or why there are none.
@@ -48,12 +49,18 @@ impl Analysis {
 }
 
 /// One report for each kind of participants.
-fn reports(folder: &Path) -> Result<Vec<StudyReport>, String> {
+fn reports(folder: &Path, study: &StudyPlan) -> Result<Vec<StudyReport>, String> {
     let in_words = |error: anyhow::Error| one_line(&error);
-    let logs = read_logs(&[folder.to_owned()]).map_err(in_words)?;
+    // The plan recovers logs whose first line is damaged.
+    let logs = read_logs_with(&[folder.to_owned()], Some(study)).map_err(in_words)?;
     let kinds = [ParticipantKind::People, ParticipantKind::Simulated];
     let present = kinds.into_iter().zip(logs.counts()).filter(|(_, n)| *n > 0);
-    present.map(|(kind, _)| analyze(&logs, Some(kind)).map_err(in_words)).collect()
+    let mut present: Vec<Option<ParticipantKind>> = present.map(|(kind, _)| Some(kind)).collect();
+    if present.is_empty() {
+        // The analysis says why there is nothing to analyze.
+        present.push(None);
+    }
+    present.into_iter().map(|kind| analyze(&logs, kind).map_err(in_words)).collect()
 }
 
 impl Results {

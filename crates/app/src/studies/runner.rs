@@ -12,6 +12,7 @@ pub(crate) mod loaded_stimuli;
 mod motion_meter;
 mod presenter;
 mod screens_ui;
+mod setup;
 mod simulated;
 mod stage_ui;
 mod steps;
@@ -27,6 +28,7 @@ use std::time::Instant;
 
 use egui::{Context, Id, Ui};
 use shagreen_core::people::study::answer::{Event, Response};
+use shagreen_core::people::study::setup::ScreenScale;
 use shagreen_core::people::study::trial::{Task, Trial};
 use shagreen_core::units::Hertz;
 use shagreen_device::controls::Input;
@@ -39,6 +41,7 @@ use shagreen_studio::study::stimuli::SIGNAL_CONTACT;
 
 use self::actions::{Action, Field};
 use self::loaded_stimuli::LoadedStimuli;
+use self::setup::setup;
 use self::simulated::Simulated;
 use self::stage_ui::StageState;
 use self::text_texture::TextTexture;
@@ -63,8 +66,8 @@ pub(crate) struct Runner {
     texts: BTreeMap<(String, usize, bool), String>,
     /// Sample rate of the stimuli of the next trial, if there are any.
     rate: Option<Hertz>,
-    /// Why the last event is not saved.
-    unsaved: Option<String>,
+    /// The last event, if it is not saved.
+    unsaved: Option<Unsaved>,
     /// Why the last action had no effect.
     problem: Option<String>,
     is_asked_to_leave: bool,
@@ -75,6 +78,14 @@ pub(crate) struct Runner {
     /// Widgets of the last frame that take values.
     fields: Vec<(Id, Field)>,
     simulated: Option<Simulated>,
+}
+
+/// Event that is not saved yet.
+struct Unsaved {
+    /// Why it is not saved.
+    reason: String,
+    /// Whether it states the devices only, so that the screen stays as it is when it is saved.
+    is_setup: bool,
 }
 
 /// What is on the screen.
@@ -90,6 +101,8 @@ enum Screen {
         is_right: Option<bool>,
     },
     Done,
+    /// After the participant did not agree to the consent text.
+    Refused,
     /// A stimulus cannot be made.
     Broken(String),
 }
@@ -102,6 +115,10 @@ pub(crate) struct RunnerInput<'a> {
     pub(crate) prompts: &'a Prompts,
     /// Measured scale of the screen, in points per millimeter.
     pub(crate) points_per_mm: f32,
+    /// The same for the log, and whether it is measured.
+    pub(crate) screen: ScreenScale,
+    /// Name of the output that plays the masking noise.
+    pub(crate) masking: Option<&'a str>,
 }
 
 /// What plays.
@@ -177,7 +194,7 @@ impl Runner {
 
     /// Asks whether to leave the study, unless it is over.
     pub(crate) fn ask_to_leave(&mut self) {
-        if matches!(self.screen, Screen::Done) {
+        if matches!(self.screen, Screen::Done | Screen::Refused) {
             self.has_left = true;
         } else {
             self.is_asked_to_leave = true;
@@ -233,6 +250,7 @@ impl Runner {
     /// Follows time, tip and background jobs, once a frame.
     fn follow(&mut self, input: &RunnerInput<'_>, ctx: &Context) {
         let now = Instant::now();
+        self.follow_setup(input);
         let is_hidden = self.is_asked_to_leave || self.unsaved.is_some();
         match &mut self.screen {
             Screen::Trial(state) if !is_hidden => {
@@ -244,6 +262,14 @@ impl Runner {
             }
             Screen::Pause { until, .. } if now >= *until && !is_hidden => self.go_on(),
             _ => {}
+        }
+    }
+
+    /// States the devices in the log when they change.
+    fn follow_setup(&mut self, input: &RunnerInput<'_>) {
+        let is_over = matches!(self.screen, Screen::Done | Screen::Refused);
+        if !is_over && let Err(error) = self.session.set_up(&setup(input)) {
+            self.unsaved = Some(Unsaved { reason: error.to_string(), is_setup: true });
         }
     }
 
@@ -265,7 +291,7 @@ impl Runner {
                 Some(Action::GoOn)
             }
             Screen::Trial(state) => simulated.act(state, self.is_stroking),
-            Screen::Pause { .. } | Screen::Done | Screen::Broken(_) => None,
+            Screen::Pause { .. } | Screen::Done | Screen::Refused | Screen::Broken(_) => None,
         };
         if action.is_some() {
             ctx.request_repaint();

@@ -1,6 +1,6 @@
 //! Sessions of the open study, from their logs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
 use egui::Context;
@@ -23,12 +23,34 @@ pub struct ListedSession {
     pub n_answers: usize,
     /// Whether the participant is simulated.
     pub is_simulated: bool,
-    /// Whether all trials are answered.
-    pub is_done: bool,
+    /// How far the session is.
+    pub state: SessionState,
     /// Why the session cannot go on, or what is wrong with its log.
     pub problem: Option<String>,
+}
+
+/// How far a session is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SessionState {
+    /// Trials are left, and nobody has agreed to the consent text yet.
+    BeforeConsent,
+    /// Trials are left.
+    Open,
+    /// All trials are answered.
+    Done,
+    /// The participant did not agree to the consent text.
+    Refused,
+    /// The log is one of another plan.
+    OtherPlan,
+    /// The file is no log that can be read.
+    Unreadable,
+}
+
+impl ListedSession {
     /// Whether the session can be resumed.
-    pub can_resume: bool,
+    pub fn can_resume(&self) -> bool {
+        matches!(self.state, SessionState::BeforeConsent | SessionState::Open)
+    }
 }
 
 /// The sessions of a study, read in the background.
@@ -71,9 +93,20 @@ impl Sessions {
         self.reading = None;
     }
 
+    /// Whether logs of another plan lie in the folder, so that no session can be added to it.
+    pub(super) fn has_other_plan(&self) -> bool {
+        self.listed.iter().any(|session| session.state == SessionState::OtherPlan)
+    }
+
+    /// Whether the participant of a log would read the consent text after a resume.
+    pub(super) fn needs_consent(&self, log: &Path) -> bool {
+        let is_before = |session: &ListedSession| session.state == SessionState::BeforeConsent;
+        self.listed.iter().any(|session| session.path == log && is_before(session))
+    }
+
     /// Log of an interrupted session of a simulated participant, if there is one.
     pub(super) fn interrupted_simulation(&self) -> Option<&PathBuf> {
-        let is_it = |session: &&ListedSession| session.is_simulated && session.can_resume;
+        let is_it = |session: &&ListedSession| session.is_simulated && session.can_resume();
         self.listed.iter().find(is_it).map(|session| &session.path)
     }
 }
@@ -82,10 +115,20 @@ fn listed(log: &ListedLog, plan: &Plan) -> ListedSession {
     let path = log.path.clone();
     match &log.log {
         Ok(read) => {
-            let is_done = read.events.iter().any(|timed| timed.event == Event::Ended);
-            let is_other = read.plan != *plan;
+            let has = |event: &Event| read.events.iter().any(|timed| timed.event == *event);
+            let state = if read.plan != *plan {
+                SessionState::OtherPlan
+            } else if has(&Event::Refused) {
+                SessionState::Refused
+            } else if has(&Event::Ended) {
+                SessionState::Done
+            } else if has(&Event::Consented) {
+                SessionState::Open
+            } else {
+                SessionState::BeforeConsent
+            };
             let n_problems = read.problems.len();
-            let problem = if is_other {
+            let problem = if state == SessionState::OtherPlan {
                 Some(strings::OTHER_PLAN.to_owned())
             } else {
                 (n_problems > 0).then(|| strings::damaged_lines(n_problems))
@@ -95,9 +138,8 @@ fn listed(log: &ListedLog, plan: &Plan) -> ListedSession {
                 participant: read.header.participant().to_owned(),
                 n_answers: read.record().answers.len(),
                 is_simulated: read.header.is_simulated(),
-                is_done,
+                state,
                 problem,
-                can_resume: !is_done && !is_other,
             }
         }
         Err(reason) => ListedSession {
@@ -105,9 +147,8 @@ fn listed(log: &ListedLog, plan: &Plan) -> ListedSession {
             path,
             n_answers: 0,
             is_simulated: false,
-            is_done: false,
+            state: SessionState::Unreadable,
             problem: Some(reason.clone()),
-            can_resume: false,
         },
     }
 }

@@ -10,7 +10,7 @@ use super::focus_ring::focus_ring_ui;
 use crate::command::studies::StudiesCommand;
 use crate::session::Presented;
 use crate::sheets::Sheet;
-use crate::studies::page::points_per_mm;
+use crate::studies::page::{points_per_mm, screen_scale};
 use crate::studies::runner::{RunnerAudible, RunnerInput};
 use crate::workspace::Workspace;
 
@@ -28,6 +28,11 @@ impl Window {
                 self.compare.end();
                 self.session.set_hand(None);
                 self.pages.studies.start(start, &self.project, ctx);
+                self.keep_log_folder();
+            }
+            StudiesCommand::ChooseLogFolder(folder) => {
+                self.pages.studies.choose_log_folder(folder, ctx);
+                self.keep_log_folder();
             }
             StudiesCommand::UseInBuild => {
                 if let Some((name, judgments)) = self.pages.studies.judgments() {
@@ -39,6 +44,16 @@ impl Window {
                 self.files.settings.studies.pixels_per_mm = Some(pixels_per_mm);
             }
             StudiesCommand::SelectMaskingOutput(id) => self.files.settings.studies.masking_output = id,
+        }
+    }
+
+    /// Remembers the folder that was chosen for the logs of the open plan, once the plan has a file.
+    fn keep_log_folder(&mut self) {
+        let studies = &mut self.files.settings.studies;
+        if let Some((plan, folder)) = self.pages.studies.chosen_log_folder()
+            && studies.log_folder_of(plan) != Some(folder)
+        {
+            studies.choose_log_folder(plan, folder);
         }
     }
 
@@ -55,13 +70,16 @@ impl Window {
 
     /// Draws the session of a study over the whole window, and plays what it presents. Returns whether one runs.
     pub(super) fn study_ui(&mut self, ui: &mut Ui, ctx: &Context) -> bool {
-        let points_per_mm = points_per_mm(self.files.settings.studies.pixels_per_mm, ctx);
+        let pixels_per_mm = self.files.settings.studies.pixels_per_mm;
+        let masking = self.pages.studies.masking_name(&self.session);
         let Some(runner) = self.pages.studies.runner() else { return false };
         let input = RunnerInput {
             project: &self.project,
             session: &self.session,
             prompts: &self.prompts,
-            points_per_mm,
+            points_per_mm: points_per_mm(pixels_per_mm, ctx),
+            screen: screen_scale(pixels_per_mm, ctx),
+            masking: masking.as_deref(),
         };
         let mouse = runner.show(ui, &input);
         let (stroke, has_left) = (runner.stroke(), runner.has_left());

@@ -2,9 +2,10 @@
 
 use egui::{
     Area, Button, Color32, Context, Frame, Id, Key, LayerId, Modifiers, Order, Pos2, Rect, RichText, Sense,
-    Stroke, StrokeKind, Ui, Vec2, pos2, vec2,
+    Shape, Stroke, StrokeKind, Ui, Vec2, pos2, vec2,
 };
 
+use super::STATUS_HEIGHT;
 use crate::choices::tour::Step;
 use crate::look::theme::{GAP, LIBRARY_WIDTH, RADIUS, tokens};
 use crate::strings::help as strings;
@@ -23,7 +24,11 @@ const EDGE: f32 = 2.0;
 /// Minimum width of the buttons that lead to another card, in points.
 const BUTTON: Vec2 = vec2(52.0, 24.0);
 /// Width that stays free for the file menu, in points.
-const MENU_WIDTH: f32 = 290.0;
+const MENU_WIDTH: f32 = 264.0;
+/// Distance between a card and its place from which a line connects them, in points.
+const FAR: f32 = 24.0;
+/// Distance of the end of this line from the top of the card, in points.
+const LINE_DROP: f32 = 24.0;
 /// Time after a click on a card in which a second click at the same place does nothing, in seconds.
 const DOUBLE_CLICK_SECS: f64 = 0.6;
 /// Darkening of everything outside the place of a card.
@@ -93,6 +98,7 @@ impl Tour {
         let corner = beside(Step::ALL[index], place, window, self.card.size());
         let (card, asked) = card_ui(ctx, index, corner);
         self.card = card;
+        lead(ctx, place.expand(AROUND_PLACE), card);
         let Some(asked) = asked.or_else(|| pressed(ctx)) else { return false };
         self.left = Some((card, now_secs));
         ctx.request_repaint_after_secs(DOUBLE_CLICK_SECS as f32);
@@ -173,6 +179,17 @@ fn highlight(ctx: &Context, place: Rect, window: Rect) {
     painter.rect_stroke(place, f32::from(RADIUS), stroke, StrokeKind::Inside);
 }
 
+/// Draws a line from the frame of a place down and to the right, to a card that does not lie beside the place.
+fn lead(ctx: &Context, place: Rect, card: Rect) {
+    if place.expand(FAR).intersects(card) {
+        return;
+    }
+    let painter = ctx.layer_painter(LayerId::new(Order::Middle, Id::unique("tour place")));
+    let (from, to) = (place.center_bottom(), pos2(card.left(), card.top() + LINE_DROP));
+    let stroke = Stroke::new(2.5, tokens(ctx).warning);
+    painter.add(Shape::line(vec![from, pos2(from.x, to.y), to], stroke));
+}
+
 /// Covers a part of the window, which then takes no clicks.
 fn block(ctx: &Context, name: &str, part: Rect, color: Color32) {
     let cover = Area::new(Id::unique(name))
@@ -188,9 +205,9 @@ fn block(ctx: &Context, name: &str, part: Rect, color: Color32) {
     });
 }
 
-/// Upper left corner of a card of this size: beside its place and within the window.
+/// Upper left corner of a card of this size: beside its place and within the window, above the status bar.
 fn beside(step: Step, place: Rect, window: Rect, size: Vec2) -> Pos2 {
-    let within = window.shrink(EDGE);
+    let within = window.with_max_y(window.bottom() - STATUS_HEIGHT).shrink(EDGE);
     let free = kept_free(step, place, window);
     let top = if step == Step::Keep { place.bottom() + GAP } else { place.top() };
     let y = top.min(within.bottom() - size.y).max(within.top());
@@ -219,10 +236,11 @@ fn kept_free(step: Step, place: Rect, window: Rect) -> Rect {
 
 #[cfg(test)]
 mod tests {
-    use super::{CARD, Step, beside, kept_free};
+    use super::{CARD, STATUS_HEIGHT, Step, beside, kept_free};
     use egui::{Rect, pos2};
 
-    /// Every card is within the window and covers neither its place nor what its text names.
+    /// Every card is within the window and covers neither its place, nor what its text names, nor the status bar. The last
+    /// one is as near to its menu as the open menu allows.
     #[test]
     fn the_card_is_seen_beside_every_place() {
         for (width, height) in [(960.0, 600.0), (1280.0, 720.0), (2560.0, 1440.0)] {
@@ -235,7 +253,9 @@ mod tests {
             ];
             for (step, place) in Step::ALL.into_iter().zip(places) {
                 let card = Rect::from_min_size(beside(step, place, window, CARD), CARD);
-                assert!(window.contains_rect(card), "{card:?} beside {place:?} in {width} x {height}");
+                let seen = window.with_max_y(height - STATUS_HEIGHT);
+                assert!(seen.contains_rect(card), "{card:?} beside {place:?} in {width} x {height}");
+                assert!(step != Step::Keep || card.left() < place.left() + 275.0, "{card:?}");
                 let free = kept_free(step, place, window);
                 assert!(!card.intersects(free), "{card:?} covers {free:?} in {width} x {height}");
             }

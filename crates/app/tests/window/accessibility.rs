@@ -5,7 +5,7 @@ mod focus;
 
 use std::collections::BTreeSet;
 
-use egui::{Button, Color32, Context, RichText, Stroke, Theme, pos2, vec2};
+use egui::{Button, Color32, Context, RichText, Shape, Stroke, Theme, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT as _;
 use shagreen_app::choices::signals::Slot;
@@ -19,6 +19,7 @@ use shagreen_studio::project::new_project;
 
 use self::contrast::{contrast, illegible};
 use self::focus::{Stop, focusable, out_of_order, tab_through, unmarked, unnamed};
+use crate::frame::painted;
 use crate::support::{Author, author_at, begin, wait_for_field, window};
 use crate::views::{Kind, carry_out, each_view};
 
@@ -55,20 +56,40 @@ fn assert_none(found: &[String]) {
     assert!(found.is_empty(), "{} faults:\n{}", found.len(), found.join("\n"));
 }
 
-/// The colors of all texts, on the backgrounds on which they are painted.
+/// The colors of all texts, on the backgrounds on which they are painted. Each view is looked at in both themes, because to
+/// reach it takes much longer than to draw it.
 #[test]
-fn every_text_is_legible_in_the_dark_theme() {
+fn every_text_is_legible_in_both_themes() {
     let mut harness = opened();
     assert_eq!(harness.ctx.theme(), Theme::Dark);
-    assert_none(&of_all_views(&mut harness, |harness, _| illegible(harness)));
+    let found = of_all_views(&mut harness, |harness, _| {
+        let mut faults = Vec::new();
+        for theme in [Theme::Light, Theme::Dark] {
+            harness.ctx.set_theme(theme);
+            harness.run_steps(2);
+            let of_theme = illegible(harness);
+            faults.extend(of_theme.into_iter().map(|fault| format!("{theme:?}: {fault}")));
+        }
+        faults
+    });
+    assert_none(&found);
 }
 
+/// Negative control: another theme has other colors from the next frame on.
 #[test]
-fn every_text_is_legible_in_the_light_theme() {
+fn both_themes_are_looked_at() {
     let mut harness = opened();
-    carry_out(&mut harness, Command::ToggleTheme);
-    assert_eq!(harness.ctx.theme(), Theme::Light);
-    assert_none(&of_all_views(&mut harness, |harness, _| illegible(harness)));
+    let panel = |harness: &Author| harness.ctx.global_style().visuals.panel_fill;
+    assert_eq!(panel(&harness), DARK.panel);
+    harness.ctx.set_theme(Theme::Light);
+    harness.run_steps(2);
+    assert_eq!(panel(&harness), LIGHT.panel);
+    let bright = |color: Color32| contrast(color, Color32::BLACK) > 10.0;
+    let is_bright = painted(&harness).iter().any(|painted| match painted.shape {
+        Shape::Rect(rect) => rect.rect.area() > 1e4 && rect.fill.is_opaque() && bright(rect.fill),
+        _ => false,
+    });
+    assert!(is_bright, "the panels are painted in the light theme");
 }
 
 /// Negative control: gray on gray and a translucent text are found, white on black is not, and neither is a disabled

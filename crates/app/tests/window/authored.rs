@@ -1,6 +1,6 @@
 //! Several authored textures: creating, selecting, comparing, snapshots, heat maps and the view.
 
-use egui::accesskit::Role;
+use egui::accesskit::{Role, Toggled};
 use egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, Pos2, Shape, TouchPhase, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::look::theme::DARK;
@@ -203,6 +203,34 @@ fn a_texture_that_is_deleted_in_its_details_is_named() {
     assert!(harness.get_by_label(words::DELETE).rect().left() > duplicate.right() + 20.0, "apart");
     click(&mut harness, words::DELETE);
     assert!(names(&harness).len() == 1 && says(&harness, &words::deleted(&name, "")));
+}
+
+/// Names of the authored textures that the list marks.
+fn marked(harness: &Author) -> Vec<String> {
+    let is_marked = |name: &String| {
+        let label = words::select(name);
+        let row = harness.get_by_label(&label);
+        row.accesskit_node().toggled() == Some(Toggled::True)
+    };
+    names(harness).into_iter().filter(is_marked).collect()
+}
+
+/// The list marks the audible texture, which the inspector names, and none while a blind comparison hides it. Then the
+/// inspector says why it is empty.
+#[test]
+fn a_comparison_marks_what_is_audible() {
+    let mut harness = two();
+    let names = names(&harness);
+    assert_eq!(marked(&harness), names[1..]);
+    click(&mut harness, &compare::hear("A"));
+    assert_eq!(marked(&harness), names[..1]);
+    assert_eq!(window(&harness).project().selected, 1, "the other one stays selected");
+    assert!(!says(&harness, compare::HIDDEN_HELP));
+    click(&mut harness, compare::BLIND);
+    assert!(marked(&harness).is_empty() && says(&harness, compare::HIDDEN_HELP));
+    click(&mut harness, compare::END);
+    assert_eq!(marked(&harness), names[1..]);
+    assert!(!says(&harness, compare::HIDDEN_HELP));
 }
 
 /// Keys and buttons play A and B under the same stroke. A blind comparison shows nothing that identifies the texture.

@@ -39,14 +39,14 @@ fn words_and_faults(harness: &Author) -> (Vec<String>, Vec<String>) {
     let shapes = painted(harness);
     let (mut words, mut faults) = (Vec::new(), Vec::new());
     for (order, shape) in shapes.iter().enumerate() {
-        let Shape::Text(text) = &shape.shape else { continue };
+        let Shape::Text(text) = shape.shape else { continue };
         if !canvas.contains(text.pos) || !known.contains(&text.galley.text()) {
             continue;
         }
         words.push(text.galley.text().to_owned());
         for letters in rows(text) {
-            let backing = shapes[..order].iter().rposition(|below| is_backing(&below.shape, letters));
-            let is_covered = |from: usize| shapes[from..].iter().any(|above| covers(&above.shape, letters));
+            let backing = shapes[..order].iter().rposition(|below| is_backing(below.shape, letters));
+            let is_covered = |from: usize| shapes[from..].iter().any(|above| covers(above.shape, letters));
             if backing.is_none_or(is_covered) {
                 faults.push(text.galley.text().to_owned());
             }

@@ -32,6 +32,13 @@ fn the_sheet_opens_and_closes_by_keys_and_names_everything() {
     wait(&mut harness, "the sheet opens", |h| says(h, strings::ACTUATOR));
     assert_eq!(unnamed_controls(&harness), [""; 0]);
     assert!(says(&harness, "48000 Hz, 2 channels"));
+    let limits = strings::latency_limits(30.0, 6.0);
+    for line in [strings::LATENCY_OF_STROKES, strings::LATENCY_OF_TAPS, &limits] {
+        assert!(says(&harness, line), "{line}");
+    }
+    // A bar without a handle.
+    let meter = harness.get_by_role_and_label(Role::ProgressIndicator, strings::METER).rect();
+    assert!(meter.height() < 10.0 && meter.width() < 120.0, "{meter:?}");
     harness.key_press(Key::Escape);
     wait(&mut harness, "the sheet closes", |h| !says(h, strings::ACTUATOR));
 }
@@ -168,7 +175,7 @@ fn a_message_has_room_in_a_small_window() {
             Shape::Text(text) => text.galley.text() == clipboard::CANNOT_CUT && !text.galley.elided,
             _ => false,
         };
-        assert!(painted(&harness).iter().any(|painted| is_whole(&painted.shape)), "{size:?}");
+        assert!(painted(&harness).iter().any(|painted| is_whole(painted.shape)), "{size:?}");
     }
 }
 

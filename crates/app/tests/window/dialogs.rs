@@ -4,10 +4,13 @@
 use std::fmt::Write as _;
 
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, PointerButton, Popup, Pos2, vec2};
+use egui::{Event, Id, Key, Modifiers, PointerButton, Popup, Pos2, vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use shagreen_app::command::axes::AxesCommand;
+use shagreen_app::command::networks::NetworksCommand;
+use shagreen_app::command::relief::ReliefCommand;
 use shagreen_app::command::{Command, FileCommand};
-use shagreen_app::strings::{self, authored, devices, document, export, import, shape, signal};
+use shagreen_app::strings::{self, authored, devices, document, export, help, import, shape, signal};
 use shagreen_core::texture::shape::ShapeControl;
 use shagreen_core::units::Hertz;
 use shagreen_formats::recording::Ask;
@@ -22,6 +25,9 @@ use crate::support::{
 };
 use crate::views::carry_out;
 
+/// Greatest distance of the button that closes a sheet from its lower right corner, in points.
+const CORNER: f32 = 26.0;
+
 /// Presses and releases the pointer within one frame, as a touchpad or a slow frame does.
 fn click_fast(harness: &mut Author, at: Pos2) {
     let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
@@ -32,6 +38,38 @@ fn click_fast(harness: &mut Author, at: Pos2) {
 
 fn center(harness: &Author, role: Role, name: &str) -> Pos2 {
     harness.get_by_role_and_label(role, name).rect().center()
+}
+
+/// The button that closes a sheet is in its lower right corner.
+#[test]
+fn every_sheet_is_closed_at_the_same_place() {
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    let first = window(&harness).session().textures()[0].id.clone();
+    for (sheet, closing, command) in [
+        ("import sheet", import::CANCEL, Command::OpenImport),
+        ("save sheet", import::CANCEL, Command::File(FileCommand::SaveAs)),
+        ("export sheet", import::CANCEL, Command::File(FileCommand::Export(WAV.id))),
+        ("axes of the space", import::CANCEL, Command::Axes(AxesCommand::Open)),
+        ("devices sheet", help::CLOSE, Command::OpenDevices),
+        ("networks sheet", help::CLOSE, Command::Networks(NetworksCommand::Open)),
+        ("open sheet", import::CANCEL, Command::File(FileCommand::AskWhatToOpen)),
+        ("gallery", help::CLOSE, Command::File(FileCommand::OpenGallery)),
+        ("shortcuts", help::CLOSE, Command::OpenShortcuts),
+        ("guide", help::CLOSE, Command::OpenGuide),
+        ("about", help::CLOSE, Command::OpenAbout),
+        ("texture sheet", help::CLOSE, Command::OpenTexture(first)),
+        ("relief sheet", import::CANCEL, Command::Relief(ReliefCommand::Begin(None, None))),
+    ] {
+        carry_out(&mut harness, command);
+        harness.run_steps(6);
+        let area = harness.ctx.memory(|memory| memory.area_rect(Id::unique(sheet))).expect(sheet);
+        let button = harness.get_by_role_and_label(Role::Button, closing).rect();
+        let from_corner = area.max - button.max;
+        assert!(from_corner.x < CORNER && from_corner.y < CORNER, "{sheet}: {button:?} in {area:?}");
+        assert!(from_corner.x > 0.0 && from_corner.y > 0.0, "{sheet}: {button:?} in {area:?}");
+        carry_out(&mut harness, Command::CloseSheet);
+    }
 }
 
 /// Text of a field or list.

@@ -6,13 +6,14 @@ use egui::{Rect, Shape};
 use egui_kittest::Harness;
 
 /// A shape of a frame, and its visible part.
-pub(crate) struct Painted {
-    pub(crate) shape: Shape,
+#[derive(Clone, Copy)]
+pub(crate) struct Painted<'a> {
+    pub(crate) shape: &'a Shape,
     pub(crate) clip: Rect,
 }
 
 /// All shapes of the last frame. Later ones cover earlier ones.
-pub(crate) fn painted<State>(harness: &Harness<'_, State>) -> Vec<Painted> {
+pub(crate) fn painted<'a, State>(harness: &'a Harness<'_, State>) -> Vec<Painted<'a>> {
     let window = harness.ctx.content_rect();
     let mut found = Vec::new();
     for clipped in &harness.output().shapes {
@@ -21,7 +22,7 @@ pub(crate) fn painted<State>(harness: &Harness<'_, State>) -> Vec<Painted> {
     found
 }
 
-fn flatten(shape: &Shape, clip: Rect, found: &mut Vec<Painted>) {
+fn flatten<'a>(shape: &'a Shape, clip: Rect, found: &mut Vec<Painted<'a>>) {
     match shape {
         Shape::Noop => {}
         Shape::Vec(parts) => {
@@ -29,7 +30,7 @@ fn flatten(shape: &Shape, clip: Rect, found: &mut Vec<Painted>) {
                 flatten(part, clip, found);
             }
         }
-        shape => found.push(Painted { shape: shape.clone(), clip }),
+        shape => found.push(Painted { shape, clip }),
     }
 }
 

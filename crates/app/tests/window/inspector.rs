@@ -74,7 +74,7 @@ fn the_smallest_window_scrolls_to_the_cards_with_a_visible_bar() {
         Shape::Rect(rect) => rect.fill.a() >= LEAST_ALPHA && bar.contains_rect(rect.rect),
         _ => false,
     };
-    assert!(painted(&harness).iter().any(|painted| is_handle(&painted.shape)), "no handle in {bar:?}");
+    assert!(painted(&harness).iter().any(|painted| is_handle(painted.shape)), "no handle in {bar:?}");
     harness.get_by_label(&last).scroll_to_me();
     harness.run_steps(20);
     let area = area(&harness, &last);

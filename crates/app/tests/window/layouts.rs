@@ -1,24 +1,30 @@
 //! Layout of every view at the supported sizes and scales: no label is cut off, shortened without need, or covered by
 //! another one. The layout does not depend on the theme, so one theme suffices.
+//!
+//! One window goes through all views and takes every size in each of them: to reach a view takes much longer than to lay it
+//! out. Windows that open at each size are tested in five views: the sheet at the start and every workspace.
 
 mod texts;
 
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use egui::{Align2, Color32, FontId, Label, Rect, ScrollArea, TextEdit, pos2, vec2};
+use egui::{Align2, Color32, FontId, Label, Popup, Rect, ScrollArea, TextEdit, ViewportId, pos2, vec2};
 use egui_kittest::Harness;
 use shagreen_app::choices::signals::Slot;
+use shagreen_app::command::Command;
+use shagreen_app::workspace::Workspace;
 use shagreen_studio::project::new_project;
 
 use self::texts::{Fault, Problem, faults};
 use crate::support::{Author, SILENT, author_at, begin, wait_for_field, window};
-use crate::views::{each_view, with_leftover};
+use crate::views::{Kind, SIZES, carry_out, each_view, points, with_leftover};
 
-/// Pixels per point of usual screens.
-const SCALES: [f32; 3] = [1.0, 1.5, 2.0];
-/// Minimum size of the window, in points. A screen that is smaller at a scale is not tested at that scale.
-const LEAST_SIZE: [f32; 2] = [960.0, 600.0];
+/// Size in pixels of the window in which the views are reached, at a scale of 1.
+const OPENED: [f32; 2] = [1280.0, 720.0];
+/// Number of frames after which a window has settled at another size: widths of groups and places of names follow those of
+/// the frame before.
+const SETTLING: usize = 6;
 
 /// Known faults in the smallest window: three figures beside each other need more width than it has, and one long title
 /// and one unit are shortened.
@@ -56,69 +62,94 @@ fn covers_a_crowded_one(fault: &Fault) -> bool {
     matches!(&fault.problem, Problem::Over(other) if CROWDED.contains(&other.as_str()))
 }
 
-/// Faults of all views in a window with this number of pixels, one a line. A fault that several views share is listed
-/// for the first.
-fn faults_at(pixels: [f32; 2]) -> Vec<String> {
-    let mut found = Vec::new();
-    for scale in SCALES {
-        let size = pixels.map(|length| (length / scale).floor());
-        if size[0] < LEAST_SIZE[0] || size[1] < LEAST_SIZE[1] {
-            continue;
-        }
-        let folder = tempfile::tempdir().unwrap();
-        let mut known = BTreeSet::new();
-        let mut look = |harness: &mut Author, view: &str| {
-            let names = names(harness);
-            for fault in faults(harness, &|text| may_be_shortened(text, &names)) {
-                let is_smallest = size[0] <= LEAST_SIZE[0];
-                let is_known = CROWDED.contains(&fault.text.as_str()) || covers_a_crowded_one(&fault);
-                // Names of textures that lie close together touch on a small canvas.
-                let is_name_over_name = matches!(&fault.problem, Problem::Over(other) if names.contains(other))
-                    && names.contains(&fault.text);
-                if is_smallest && (is_known || is_name_over_name) {
-                    continue;
-                }
-                let fault = fault.to_string();
-                if known.insert(fault.clone()) {
-                    found.push(format!("{view}, {}x{} at {scale}: {fault}", pixels[0], pixels[1]));
-                }
+/// Faults of views, one a line. A fault that several views share at a size is listed for the first.
+#[derive(Default)]
+struct Found {
+    known: BTreeSet<String>,
+    lines: Vec<String>,
+}
+
+impl Found {
+    /// Adds the faults of the view on the screen, at one of [`SIZES`].
+    fn look(&mut self, harness: &Author, view: &str, (pixels, scale): ([f32; 2], f32)) {
+        let names = names(harness);
+        let at = format!("{}x{} at {scale}", pixels[0], pixels[1]);
+        for fault in faults(harness, &|text| may_be_shortened(text, &names)) {
+            let is_smallest = pixels == SIZES[0].0;
+            let is_known = CROWDED.contains(&fault.text.as_str()) || covers_a_crowded_one(&fault);
+            // Names of textures that lie close together touch on a small canvas.
+            let is_name_over_name = matches!(&fault.problem, Problem::Over(other) if names.contains(other))
+                && names.contains(&fault.text);
+            if is_smallest && (is_known || is_name_over_name) {
+                continue;
             }
-        };
-        let mut harness = author_at(begin(new_project()), size, scale);
-        each_view(&mut harness, folder.path(), &mut |harness, view, _| look(harness, view));
-        drop(harness);
-        let mut harness = author_at(with_leftover(folder.path()), size, scale);
+            if self.known.insert(format!("{at}: {fault}")) {
+                self.lines.push(format!("{view}, {at}: {fault}"));
+            }
+        }
+    }
+
+    fn assert_none(&self) {
+        assert!(self.lines.is_empty(), "{} faults:\n{}", self.lines.len(), self.lines.join("\n"));
+    }
+}
+
+/// Gives the window another size and scale, and shows frames until it has settled.
+fn resize(harness: &mut Author, pixels: [f32; 2], scale: f32) {
+    harness.set_size(points(pixels, scale).into());
+    let viewport = harness.input_mut().viewports.get_mut(&ViewportId::ROOT).expect("the window");
+    viewport.native_pixels_per_point = Some(scale);
+    harness.run_steps(SETTLING);
+}
+
+#[test]
+fn nothing_is_cut_off_in_any_view_at_any_size() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut found = Found::default();
+    let mut harness = author_at(begin(new_project()), OPENED, 1.0);
+    each_view(&mut harness, folder.path(), &mut |harness, view, kind| {
+        let has_menu = kind == Kind::Menu && Popup::is_any_open(&harness.ctx);
+        for (pixels, scale) in SIZES {
+            resize(harness, pixels, scale);
+            assert!(!has_menu || Popup::is_any_open(&harness.ctx), "{view} stays open");
+            found.look(harness, view, (pixels, scale));
+        }
+        resize(harness, OPENED, 1.0);
+    });
+    found.assert_none();
+}
+
+/// A window that opens at a size lays itself out as one that gets it later.
+#[test]
+fn nothing_is_cut_off_in_a_window_that_opens_at_any_size() {
+    let mut found = Found::default();
+    for (pixels, scale) in SIZES {
+        let folder = tempfile::tempdir().unwrap();
+        let mut harness = author_at(with_leftover(folder.path()), points(pixels, scale), scale);
         // Until the field is there, the panels below the sheet still change.
         wait_for_field(&mut harness);
         harness.run_steps(4);
-        look(&mut harness, "sheet unsaved work");
+        found.look(&harness, "sheet unsaved work", (pixels, scale));
+        carry_out(&mut harness, Command::CloseSheet);
+        for workspace in Workspace::ALL {
+            carry_out(&mut harness, Command::Show(workspace));
+            harness.run_steps(SETTLING);
+            found.look(&harness, &format!("{workspace:?}, just opened"), (pixels, scale));
+        }
     }
-    found
+    found.assert_none();
 }
 
-fn check(pixels: [f32; 2]) {
-    let found = faults_at(pixels);
-    assert!(found.is_empty(), "{} faults:\n{}", found.len(), found.join("\n"));
-}
-
+/// Otherwise all views would be looked at in one size.
 #[test]
-fn nothing_is_cut_off_at_the_smallest_size() {
-    check(LEAST_SIZE);
-}
-
-#[test]
-fn nothing_is_cut_off_at_1280_by_720() {
-    check([1280.0, 720.0]);
-}
-
-#[test]
-fn nothing_is_cut_off_at_1920_by_1080() {
-    check([1920.0, 1080.0]);
-}
-
-#[test]
-fn nothing_is_cut_off_at_2560_by_1440() {
-    check([2560.0, 1440.0]);
+fn a_window_takes_the_size_that_it_is_given() {
+    let mut harness = author_at(begin(new_project()), OPENED, 1.0);
+    resize(&mut harness, [1920.0, 1080.0], 1.5);
+    assert_eq!(harness.ctx.content_rect().size(), vec2(1280.0, 720.0));
+    assert_eq!((harness.ctx.pixels_per_point(), harness.ctx.zoom_factor()), (1.5, 1.0));
+    resize(&mut harness, [960.0, 600.0], 1.0);
+    assert_eq!(harness.ctx.content_rect().size(), vec2(960.0, 600.0));
+    assert_eq!(harness.ctx.pixels_per_point(), 1.0);
 }
 
 /// Negative control: labels that are cut off, shortened, or on each other are found, and so is a button outside the

@@ -10,9 +10,11 @@ use shagreen_app::strings::path;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::space::texture_path::{Along, AtEnd};
+use shagreen_studio::project::new_project;
 
 use crate::support::{
-    Author, author, choose, click, painted, solo, unnamed_controls, wait, wait_for_field, window, words,
+    Author, author, author_of, begin, choose, click, painted, solo, unnamed_controls, wait, wait_for_field,
+    window, words,
 };
 
 fn center(harness: &Author, name: &str) -> Pos2 {
@@ -117,6 +119,39 @@ fn a_path_is_drawn_changed_and_undone() {
     click(&mut harness, &strings::play_texture("Cork"));
     assert_eq!(window(&harness).project().solo.as_deref(), Some("cork"));
     assert_eq!(window(&harness).project().texture().path, None);
+}
+
+/// Labels stay beside their lists, and the canvas stays where it is when the first point is placed.
+#[test]
+fn the_controls_of_a_path_wrap_as_groups_and_have_their_place_before_it() {
+    for size in [[960.0, 600.0], [1280.0, 720.0]] {
+        let mut harness = author_of(begin(new_project()), size);
+        wait_for_field(&mut harness);
+        click(&mut harness, path::PATH);
+        harness.run_steps(4);
+        let before = center(&harness, &strings::play_texture("Felt"));
+        click(&mut harness, &strings::play_texture("Brick"));
+        click(&mut harness, &strings::play_texture("Cotton weave"));
+        harness.run_steps(4);
+        let after = center(&harness, &strings::play_texture("Felt"));
+        assert!((after - before).length() < 1.0, "{before:?}, then {after:?} in {size:?}");
+        let row = |role: Role, name: &str| harness.get_by_role_and_label(role, name).rect();
+        for group in [
+            vec![
+                harness.get_by_label(path::ALONG_LABEL).rect(),
+                row(Role::ComboBox, path::ALONG),
+                row(Role::SpinButton, path::LENGTH),
+            ],
+            vec![harness.get_by_label(path::AT_END_LABEL).rect(), row(Role::ComboBox, path::AT_END)],
+            vec![row(Role::Button, path::KEEP), row(Role::Button, path::CLEAR)],
+        ] {
+            for pair in group.windows(2) {
+                let is_beside = pair[0].right() <= pair[1].left() + 0.5;
+                let is_level = (pair[0].center().y - pair[1].center().y).abs() < 3.0;
+                assert!(is_beside && is_level, "{pair:?} in {size:?}");
+            }
+        }
+    }
 }
 
 /// The texture follows the path during the stroke, and the point plays again afterwards.

@@ -12,21 +12,10 @@ use shagreen_studio::project::new_project;
 
 use crate::images::raster::Raster;
 use crate::support::{self, Author, begin, wait, wait_for_field, window};
-use crate::views::{carry_out, each_view};
+use crate::views::{SIZES, carry_out, each_view, points};
 
-/// Size in pixels, and pixels per point. Smaller windows than 960 by 600 points are not supported.
-const SIZES: [([f32; 2], f32); 7] = [
-    ([960.0, 600.0], 1.0),
-    ([1280.0, 720.0], 1.0),
-    ([1920.0, 1080.0], 1.0),
-    ([1920.0, 1080.0], 1.5),
-    ([2560.0, 1440.0], 1.0),
-    ([2560.0, 1440.0], 1.5),
-    ([2560.0, 1440.0], 2.0),
-];
-
-fn opened([width, height]: [f32; 2], scale: f32) -> Author {
-    let builder = Harness::builder().with_size([(width / scale).floor(), (height / scale).floor()]);
+fn opened(pixels: [f32; 2], scale: f32) -> Author {
+    let builder = Harness::builder().with_size(points(pixels, scale));
     let builder = builder.with_pixels_per_point(scale).renderer(Raster::default());
     let mut harness = support::opened(builder, begin(new_project()));
     wait(&mut harness, "the output opens", |h| window(h).session().status().is_some());

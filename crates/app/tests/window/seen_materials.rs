@@ -97,8 +97,8 @@ fn photo_model() -> Vec<u8> {
     let usual = PhotoConfig::usual(1);
     let network = SmallNetworkConfig { n_hidden: 6, n_epochs: 4, n_networks: 1, ..usual.network };
     let config = PhotoConfig { network, ..usual };
-    let rough: Vec<Estimate> =
-        set.photos.iter().map(|photo| drawn_roughness(&drawn, &photo.features.early).unwrap()).collect();
+    let rough: Vec<Option<Estimate>> =
+        set.photos.iter().map(|photo| drawn_roughness(&drawn, &photo.features).unwrap()).collect();
     let mut judged = Vec::new();
     for kind in LeftOut::ALL {
         for numbered in folds(&set, kind, 4).iter().enumerate() {

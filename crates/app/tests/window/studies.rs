@@ -4,7 +4,9 @@ mod designs;
 mod faults;
 mod keyboard;
 pub(crate) mod plans;
+mod setup;
 mod simulated;
+mod touch;
 
 use std::path::{Path, PathBuf};
 
@@ -68,6 +70,43 @@ pub(crate) fn go_to_trial(harness: &mut Author) -> bool {
     }
 }
 
+/// Labels of the stimuli over which the participant still has to move, as the screen says.
+pub(crate) fn still_to_feel(harness: &Author) -> Vec<String> {
+    let said = shown(harness).into_iter().find(|text| text.starts_with(studies::TOUCH_EACH));
+    let labels = said.as_deref().and_then(|text| text.rsplit_once(": "));
+    let labels = labels.map_or("", |(_, labels)| labels.trim_end_matches('.'));
+    labels.split(", ").filter(|label| !label.is_empty()).map(str::to_owned).collect()
+}
+
+/// Whether the participant still has to move over something.
+pub(crate) fn has_to_feel(harness: &Author) -> bool {
+    let said = [studies::TOUCH_ONE, studies::TOUCH_BOTH, studies::TOUCH_EACH];
+    said.into_iter().any(|text| says(harness, text))
+}
+
+/// Waits until the automatic stroke has moved over a stimulus.
+pub(crate) fn wait_until_felt(harness: &mut Author, label: &str) {
+    wait(harness, "it is felt", |h| !still_to_feel(h).iter().any(|left| left == label));
+}
+
+/// Lets the automatic stroke run, starts every stimulus that does not start by itself, and waits until each was felt.
+pub(crate) fn feel_all(harness: &mut Author) {
+    let Step::Trial(trial) = session(harness).step() else { panic!("a trial") };
+    if harness.query_by_label(studies::STROKE_START).is_some() {
+        click(harness, studies::STROKE_START);
+    }
+    let shown = trial.task.shown();
+    let has_buttons = shown.len() > 1
+        && shown.iter().all(|shown| harness.query_by_label(&studies::play(&shown.label)).is_some());
+    if has_buttons {
+        for shown in shown {
+            click(harness, &studies::play(&shown.label));
+            wait_until_felt(harness, &shown.label);
+        }
+    }
+    wait(harness, "all is felt", |h| !has_to_feel(h));
+}
+
 /// Leaves a session that is over or not.
 pub(crate) fn leave(harness: &mut Author) {
     let is_over = session(harness).step() == Step::Done;
@@ -129,7 +168,8 @@ fn a_dropped_plan_opens_here_from_any_workspace() {
     assert!(window(&harness).studies().problems()[0].contains("not a plan"), "{:?}", shown(&harness));
 }
 
-/// Three clicks: the workspace, the study, and its start.
+/// Three clicks: the workspace, the study, and its start. Its consent text is a placeholder, which the experimenter has to
+/// confirm.
 #[test]
 fn the_authored_textures_of_a_project_are_a_study_in_three_clicks() {
     let folder = tempfile::tempdir().unwrap();
@@ -141,7 +181,16 @@ fn the_authored_textures_of_a_project_are_a_study_in_three_clicks() {
     // The plan would be saved in the current folder; a test has a folder of its own.
     let path = folder.path().join("mine.toml");
     write_into(&mut harness, studies::SAVED_TO, &path.display().to_string());
-    start(&mut harness, studies::START);
+    assert!(says(&harness, studies::PLACEHOLDER_CONSENT));
+    for answer in [studies::CANCEL, studies::START_ANYWAY] {
+        harness.get_by_label(studies::START).click_accesskit();
+        harness.run_steps(2);
+        assert!(says(&harness, studies::PLACEHOLDER_QUESTION) && !window(&harness).studies().is_busy());
+        harness.get_by_label(answer).click_accesskit();
+        harness.run_steps(2);
+    }
+    wait(&mut harness, "the session runs", |h| window(h).studies().running().is_some());
+    harness.run_steps(2);
     assert_eq!(session(&harness).participant(), "p01");
     assert_eq!(load_plan(&path).unwrap().plan.stimuli.len(), 1);
     leave(&mut harness);

@@ -52,6 +52,8 @@ fn a_card_covers_nothing_that_it_names_and_its_buttons_stay() {
         let from_heading = |name: &str| area_of(&harness, name).min - heading;
         buttons.push([from_heading(help::BACK), from_heading(next)]);
         let card = card(&harness, step);
+        let status = harness.get_by_role_and_label(Role::ComboBox, strings::OUTPUT).rect();
+        assert!(!card.intersects(status), "{step:?}: {card:?} on {status:?}");
         match step {
             Step::Drag => assert!(!card.intersects(canvas(&harness)), "{card:?}"),
             Step::Stroke => {

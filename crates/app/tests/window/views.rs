@@ -37,6 +37,23 @@ use crate::studies;
 use crate::studies::plans::{RATING, RELEVANCE, RUN, SIMILARITY, SORTING, plan_text};
 use crate::support::{Author, begin, choose, click, drop_files, says, wait, wait_for_field, window};
 
+/// Supported sizes of the window in pixels, each with pixels per point of usual screens. Smaller windows than 960 by 600 points
+/// are not supported. Equal scales follow each other, because another one needs other images of all letters.
+pub(crate) const SIZES: [([f32; 2], f32); 7] = [
+    ([960.0, 600.0], 1.0),
+    ([1280.0, 720.0], 1.0),
+    ([1920.0, 1080.0], 1.0),
+    ([2560.0, 1440.0], 1.0),
+    ([1920.0, 1080.0], 1.5),
+    ([2560.0, 1440.0], 1.5),
+    ([2560.0, 1440.0], 2.0),
+];
+
+/// Size in points of a window with this number of pixels at a scale.
+pub(crate) fn points(pixels: [f32; 2], scale: f32) -> [f32; 2] {
+    pixels.map(|length| (length / scale).floor())
+}
+
 /// Kind of a view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -219,6 +236,20 @@ fn studies_views(harness: &mut Author, folder: &Path, look: &mut Look<'_>) {
     click(harness, words::LEAVE);
     show(harness, look, "study, question", Kind::Workspace);
     click(harness, words::LEAVE_NOW);
+    wait(harness, "the sessions are listed", |h| !window(h).studies().is_busy());
+    studies::start(harness, words::START);
+    click(harness, words::DISAGREE);
+    show(harness, look, "study, refused", Kind::Workspace);
+    click(harness, words::CLOSE);
+    wait(harness, "the sessions are listed", |h| !window(h).studies().is_busy());
+    show(harness, look, "Studies, sessions", Kind::Workspace);
+    click(harness, &words::template(&words::template_title("abx")));
+    wait(harness, "the plan is read", |h| !window(h).studies().is_busy());
+    harness.get_by_label(words::START).click_accesskit();
+    harness.run_steps(2);
+    show(harness, look, "Studies, placeholder of a consent text", Kind::Workspace);
+    harness.get_by_label(words::CANCEL).click_accesskit();
+    harness.run_steps(2);
     for (name, parts) in RUN {
         let folder = folder.join(name);
         std::fs::create_dir_all(&folder).unwrap();

@@ -6,20 +6,20 @@
 use crate::surfaces::picture_features::{Square, detail_energies};
 use crate::surfaces::prompt::OPEN;
 
-/// RMS of luma in details of up to 16 pixels, 0 to 1, below which a picture shows no detail: two steps of 8 bits, about the
-/// noise of a camera.
-const LEAST_DETAIL: f64 = 2.0 / 255.0;
+/// RMS of luma in details of up to 16 pixels, 0 to 1, below which a picture shows no detail: one step of 8 bits, less than
+/// the noise of most cameras.
+const LEAST_DETAIL: f64 = 1.0 / 255.0;
 /// Number of detail sizes of [`LEAST_DETAIL`]: larger details are also those of the light.
 const N_SIZES_OF_DETAIL: usize = 4;
 /// Energy of details of 2 pixels below which a picture is blurred, in dB relative to details of 8 to 32 pixels. A sharp
 /// picture whose power falls with the square of the frequency has about -5 dB; Gaussian blur of 2 pixels lowers that to
-/// about -18 dB.
-const LEAST_SHARPNESS_DB: f64 = -17.0;
+/// about -18 dB. A small picture that is enlarged to the square counts as blurred, too.
+const LEAST_SHARPNESS_DB: f64 = -15.0;
 /// Distance from the training pictures above which a picture is unlike them, relative to the distance that 95 % of the
 /// pictures that are left out of the training do not exceed.
 const MOST_UNLIKE: f64 = 1.25;
 /// Probability of the most likely material below which no material is clear.
-const LEAST_PROBABILITY: f64 = 0.3;
+const LEAST_PROBABILITY: f64 = 0.2;
 
 /// Reason to doubt a prediction from a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,7 +172,7 @@ mod tests {
         assert_eq!(doubt_of_unlikeness(1.0), None);
         assert_eq!(doubt_of_unlikeness(1.3), Some(PictureDoubt::UnlikeTraining));
         assert_eq!(doubt_of_materials(&[0.1, 0.8, 0.1]), None);
-        assert_eq!(doubt_of_materials(&[0.25; 4]), Some(PictureDoubt::NoClearMaterial));
+        assert_eq!(doubt_of_materials(&[0.1; 10]), Some(PictureDoubt::NoClearMaterial));
         assert_eq!(doubt_of_materials(&[]), Some(PictureDoubt::NoClearMaterial));
     }
 

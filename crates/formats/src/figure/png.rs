@@ -61,6 +61,7 @@ mod tests {
                 columns: Vec::new(),
                 rows: Vec::new(),
                 decimals: 1,
+                n_counts: 0,
                 source: String::new(),
             })
         };

@@ -312,8 +312,8 @@ fn draw_table(page: &Page<'_>, table: &Table, title: &str) -> Drawn {
     for (row, (name, values)) in (1..).zip(&table.rows) {
         let top = 60 + ROW * row;
         page.draw_text(name, &text(13.0, INK), (28, top))?;
-        for (right, value) in rights().zip(values) {
-            page.draw_text(&table.shown(*value), &at_right(13.0, INK), (right, top))?;
+        for (column, (right, value)) in rights().zip(values).enumerate() {
+            page.draw_text(&table.shown(column, *value), &at_right(13.0, INK), (right, top))?;
         }
     }
     Ok(())

@@ -22,12 +22,15 @@ fn settings_come_back_and_what_is_none_is_told() {
     settings.panels.stage = Some(300.5);
     settings.studies.pixels_per_mm = Some(3.78);
     settings.studies.masking_output = Some("pulse:headphones".to_owned());
+    settings.studies.choose_log_folder(Path::new("/a.toml"), Path::new("/logs"));
     let network = ImageNetwork::Resnet50("/r.safetensors".into());
     settings.photo_networks = Some(PhotoNetworks { network, heads: Some("/h.safetensors".into()) });
     #[cfg(unix)]
     {
         use std::os::unix::ffi::OsStrExt as _;
         settings.note_project(Path::new(std::ffi::OsStr::from_bytes(b"/a/\xff.shagreen")));
+        let folder = Path::new(std::ffi::OsStr::from_bytes(b"/\xff-logs"));
+        settings.studies.choose_log_folder(Path::new("/b.toml"), folder);
     }
     for seed in [1, 2, 1] {
         settings.note_prompt(KeptPrompt { prompt: "rough".to_owned(), seed, by_diffusion: false });
@@ -58,6 +61,20 @@ fn a_library_is_permitted_for_its_project_only() {
     assert_eq!(read(&written).libraries, settings.libraries);
     let damaged = br#"{"libraries": [{"project": "/a"}, 3, {"project": "/a", "library": "/b"}]}"#;
     assert_eq!(read(damaged).libraries_of(Path::new("/a")), [Path::new("/b")]);
+}
+
+#[test]
+fn a_plan_has_the_folder_that_was_chosen_last_for_it() {
+    let mut studies = Settings::default().studies;
+    for (plan, folder) in [("/a.toml", "/one"), ("/b.toml", "/two"), ("/a.toml", "/three")] {
+        studies.choose_log_folder(Path::new(plan), Path::new(folder));
+    }
+    let folder_of = |plan: &str| studies.log_folder_of(Path::new(plan));
+    assert_eq!(folder_of("/a.toml"), Some(Path::new("/three")));
+    assert_eq!(folder_of("/b.toml"), Some(Path::new("/two")));
+    assert_eq!((folder_of("/c.toml"), studies.log_folders.len()), (None, 2));
+    let damaged = br#"{"studies": {"log_folders": [{"plan": 3, "folder": "/one"}]}}"#;
+    assert!(read(damaged).studies.log_folders.is_empty());
 }
 
 /// An unreadable setting affects no other, least of all the device setup.

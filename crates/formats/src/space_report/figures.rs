@@ -161,6 +161,7 @@ fn correlations(build: &SpaceBuild) -> Figure {
         columns: dims.chain(["R²".to_owned(), "ICC(2,k)".to_owned()]).collect(),
         rows: build.adjectives.iter().map(row).collect(),
         decimals: 3,
+        n_counts: 0,
         source: String::new(),
     })
 }
@@ -177,6 +178,7 @@ fn reliabilities(build: &SpaceBuild) -> Figure {
         columns: ["alpha", "ICC(2,k)", "ICC(2,1)"].map(str::to_owned).to_vec(),
         rows: build.adjectives.iter().map(row).collect(),
         decimals: 3,
+        n_counts: 0,
         source: String::new(),
     })
 }
@@ -196,6 +198,7 @@ fn adjectives(build: &SpaceBuild) -> Figure {
         columns: names.clone(),
         rows: names.into_iter().zip(correlation_table(&columns, &columns)).collect(),
         decimals: 2,
+        n_counts: 0,
         source: String::new(),
     })
 }

@@ -4,7 +4,7 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use super::header::HeaderV1;
+use super::header::header_lines;
 use super::line::LineV1;
 use super::{LogHeader, ReadLog, ReadLogError, TimedEvent, read_study_log};
 use crate::bounded_file::{self, FileKind};
@@ -71,7 +71,7 @@ pub struct StudyLog {
 }
 
 impl StudyLog {
-    /// Creates the log of a new session, with its first line.
+    /// Creates the log of a new session, with its first line and the copy of it.
     ///
     /// # Errors
     /// [`LogError::Exists`] if there is a file; [`LogError::NotOpened`] and [`LogError::NotSaved`] if the file cannot be
@@ -83,7 +83,7 @@ impl StudyLog {
         })?;
         lock(&file, path)?;
         let mut lines = Lines { storage: file, n_bytes: 0, is_torn: false };
-        let appended = lines.append(&serde_json::to_vec(&HeaderV1::of(header)).unwrap_or_default());
+        let appended = header_lines(header).iter().try_for_each(|line| lines.append(line));
         if let Err(error) = appended {
             // Nothing is answered yet, and a log without its first line could not be resumed.
             fs::remove_file(path).ok();

@@ -123,6 +123,13 @@ impl LogHeader {
     }
 }
 
+/// The first line of a log, and its copy, without line breaks.
+pub(super) fn header_lines(header: &LogHeader) -> [Vec<u8>; 2] {
+    // Keys are strings, and numbers that are not finite become null.
+    let line = serde_json::to_vec(&HeaderV1::of(header)).unwrap_or_default();
+    [line.clone(), line]
+}
+
 #[derive(Serialize, Deserialize)]
 pub(super) struct HeaderV1 {
     format: String,
@@ -138,7 +145,7 @@ pub(super) struct HeaderV1 {
 }
 
 impl HeaderV1 {
-    pub(super) fn of(header: &LogHeader) -> Self {
+    fn of(header: &LogHeader) -> Self {
         Self {
             format: FORMAT.to_owned(),
             version: VERSION.to_owned(),

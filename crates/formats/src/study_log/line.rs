@@ -2,15 +2,19 @@
 
 use serde::{Deserialize, Serialize};
 use shagreen_core::people::study::answer::{Answer, Event, Measured, Motion, Response};
+use shagreen_core::people::study::setup::Setup;
 use shagreen_core::people::study::trial::{Side, Trial};
 
 use super::TimedEvent;
+use super::setup_line::SetupV1;
 use super::task_line::{SideV1, TaskV1};
 
 #[derive(Serialize, Deserialize)]
 #[serde(tag = "event", rename_all = "kebab-case")]
 pub(super) enum LineV1 {
+    Setup(Box<SetupV1>),
     Consent { unix_s: f64 },
+    Refuse { unix_s: f64 },
     Rest { unix_s: f64 },
     Answer(Box<AnswerV1>),
     Resume { unix_s: f64 },
@@ -33,6 +37,9 @@ pub(super) struct AnswerV1 {
     latency_ms: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     motion: Option<MotionV1>,
+    /// Distance over each stimulus.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    touched_mm: Vec<f64>,
     #[serde(default, skip_serializing_if = "String::is_empty")]
     device: String,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -65,7 +72,9 @@ impl From<&TimedEvent> for LineV1 {
     fn from(timed: &TimedEvent) -> Self {
         let unix_s = timed.unix_secs;
         match &timed.event {
+            Event::SetUp(setup) => Self::Setup(Box::new(SetupV1::of(setup, unix_s))),
             Event::Consented => Self::Consent { unix_s },
+            Event::Refused => Self::Refuse { unix_s },
             Event::Rested => Self::Rest { unix_s },
             Event::Answered(answer) => Self::Answer(Box::new(AnswerV1::of(answer, unix_s))),
             Event::Resumed => Self::Resume { unix_s },
@@ -77,7 +86,9 @@ impl From<&TimedEvent> for LineV1 {
 impl From<LineV1> for TimedEvent {
     fn from(line: LineV1) -> Self {
         let (unix_secs, event) = match line {
+            LineV1::Setup(setup) => (setup.unix_s, Event::SetUp(Box::new(Setup::from(*setup)))),
             LineV1::Consent { unix_s } => (unix_s, Event::Consented),
+            LineV1::Refuse { unix_s } => (unix_s, Event::Refused),
             LineV1::Rest { unix_s } => (unix_s, Event::Rested),
             LineV1::Answer(answer) => (answer.unix_s, Event::Answered(Box::new(Answer::from(*answer)))),
             LineV1::Resume { unix_s } => (unix_s, Event::Resumed),
@@ -105,6 +116,7 @@ impl AnswerV1 {
                 mean_speed_mm_per_s: 1e3 * motion.mean_speed_mps,
                 mean_force_n: motion.mean_force_n,
             }),
+            touched_mm: measured.touched_m.iter().map(|meters| 1e3 * meters).collect(),
             device: measured.device.clone(),
             stimulus_hashes: measured.stimulus_hashes.clone(),
             plays: measured.n_plays.clone(),
@@ -128,6 +140,7 @@ impl From<AnswerV1> for Answer {
                 mean_speed_mps: motion.mean_speed_mm_per_s / 1e3,
                 mean_force_n: motion.mean_force_n,
             }),
+            touched_m: line.touched_mm.iter().map(|mm| mm / 1e3).collect(),
             latency_secs: line.latency_ms.map(|ms| ms / 1e3),
             device: line.device,
             stimulus_hashes: line.stimulus_hashes,

@@ -1,53 +1,22 @@
 //! Reader of logs, which keeps every line that is whole.
 
-use std::collections::BTreeSet;
-
-use shagreen_core::people::study::answer::{Event, Record, check};
 use shagreen_core::people::study::plan::Plan;
 
 use super::header::HeaderV1;
-use super::line::LineV1;
-use super::{FORMAT, LogHeader, LogHeaderError, TimedEvent};
+use super::lines::{Lines, header_in, lines_of, reason_of};
+use super::read_log::ReadLog;
+use super::{FORMAT, LogHeader, LogHeaderError};
 use crate::own_json::{self, HeaderFault};
-use crate::parser_words::plain;
-use crate::study_plan::{StudyPlanError, read_study_plan};
-
-/// A log, and what is wrong with it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ReadLog {
-    /// The first line.
-    pub header: LogHeader,
-    /// The plan in the header.
-    pub plan: Plan,
-    /// Events of all whole lines, in their order. If a trial is answered twice, only the first answer is among them.
-    pub events: Vec<TimedEvent>,
-    /// Lines that were skipped, the first thousand.
-    pub problems: Vec<LineProblem>,
-    /// Whether the last line is torn: the program ended while it was written, and its event is lost.
-    pub is_torn: bool,
-}
-
-/// A line that was skipped, or that needs a look.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LineProblem {
-    /// Number of the line, from one.
-    pub line: usize,
-    /// What is wrong with it, and what became of it.
-    pub text: String,
-}
-
-impl std::fmt::Display for LineProblem {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "line {}: {}", self.line, self.text)
-    }
-}
+use crate::study_plan::{StudyPlanError, read_logged_plan};
 
 /// Why bytes are not a log.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ReadLogError {
-    /// The header is missing or damaged.
-    #[error("the first line of the log is damaged: {reason}; restore it from a copy, or begin a new session")]
+    /// The header and its copy are missing or damaged.
+    #[error(
+        "the first line of the log is damaged: {reason}; analyze the log together with others of its study or with the plan file, or restore it from a backup"
+    )]
     Damaged {
         /// What is wrong.
         reason: String,
@@ -67,115 +36,88 @@ pub enum ReadLogError {
     /// The plan in the header cannot be read.
     #[error("the plan in the first line of the log: {0}")]
     Plan(#[from] StudyPlanError),
-}
-
-/// Longest line of an event, in bytes. The longest sorts have some 100 kB.
-const MAX_LINE_BYTES: usize = 1 << 20;
-
-/// Number of damaged lines that are listed.
-const MOST_PROBLEMS: usize = 1000;
-
-impl ReadLog {
-    /// The events without their times.
-    pub fn events(&self) -> Vec<Event> {
-        self.events.iter().map(|timed| timed.event.clone()).collect()
-    }
-
-    /// Answers of the participant, for the analysis.
-    pub fn record(&self) -> Record {
-        let header = &self.header;
-        Record::of(header.participant().to_owned(), header.number(), header.is_simulated(), &self.events())
-    }
+    /// A log without its header has no answers to trials of the plan.
+    #[error(
+        "the first line of the log is damaged, and the log has no answers to trials of this plan; use the plan with which the session began"
+    )]
+    OtherPlan,
 }
 
 /// Reads a log. Lines that are not whole are reported and skipped.
 ///
 /// # Errors
-/// See [`ReadLogError`]: without its header, a log means nothing.
+/// See [`ReadLogError`]. A log without its header and the copy of it can be read by [`super::recover_study_log`].
 pub fn read_study_log(bytes: &[u8]) -> Result<ReadLog, ReadLogError> {
-    let pieces = || bytes.split(|byte| *byte == b'\n').enumerate();
-    let n_pieces = pieces().count();
-    let mut lines = pieces();
     // There is a piece even in an empty file.
-    let (_, first) = lines.next().unwrap_or_default();
-    own_json::minor_version(first, FORMAT, 1).map_err(error_of)?;
+    let (_, first) = lines_of(bytes).next().unwrap_or_default();
+    let mut problem = None;
+    let FoundHeader { header, plan, is_changed } = match header_of(first) {
+        Ok(found) => found,
+        Err(error) => {
+            let Some((line, copy)) = copy_of_header(bytes) else {
+                return Err(if has_events(bytes) { without_header(error) } else { error });
+            };
+            let text = format!("it is damaged; its copy in line {line} counts, and nothing is lost");
+            problem = Some(text);
+            copy
+        }
+    };
+    let mut lines = Lines::of(bytes, &plan);
+    if is_changed {
+        lines.add_problem(0, "the plan was changed after the session began; compare it with the plan file");
+    }
+    if let Some(text) = problem {
+        lines.add_problem(0, &text);
+    }
+    for (index, line) in lines.take_headers() {
+        match header_of(line) {
+            Ok(copy) if copy.header == header => {}
+            Ok(_) => lines.add_problem(
+                index,
+                "it is a copy of another first line than that of this log, which counts; compare the two",
+            ),
+            Err(_) => lines.add_problem(index, "the copy of the first line is damaged; nothing is lost"),
+        }
+    }
+    Ok(lines.into_log(header, plan))
+}
+
+/// What a header says.
+struct FoundHeader {
+    header: LogHeader,
+    plan: Plan,
+    /// Whether the plan differs from its hash.
+    is_changed: bool,
+}
+
+fn header_of(line: &[u8]) -> Result<FoundHeader, ReadLogError> {
+    own_json::minor_version(line, FORMAT, 1).map_err(error_of)?;
     let wire: HeaderV1 =
-        serde_json::from_slice(first).map_err(|error| ReadLogError::Damaged { reason: reason_of(&error) })?;
+        serde_json::from_slice(line).map_err(|error| ReadLogError::Damaged { reason: reason_of(&error) })?;
     let stated_hash = wire.plan_sha256.clone();
     let header = wire.into_header()?;
-    let plan = read_study_plan(header.plan_text().as_bytes())?;
-    let mut log = ReadLog { header, plan, events: Vec::new(), problems: Vec::new(), is_torn: false };
-    if log.header.plan_sha256() != stated_hash {
-        log.add_problem(0, "the plan was changed after the session began; compare it with the plan file");
-    }
-    let mut answered = BTreeSet::new();
-    for (index, line) in lines {
-        let line = line.trim_ascii();
-        if line.is_empty() {
-            continue;
-        }
-        match event_of(line, &log.plan) {
-            Ok(timed) => {
-                if let Event::Answered(answer) = &timed.event
-                    && !answered.insert((answer.trial.part.clone(), answer.trial.number))
-                {
-                    let (part, number) = (&answer.trial.part, answer.trial.number);
-                    let text = format!(
-                        "part \"{part}\", trial {number} is answered before; the first answer counts"
-                    );
-                    log.add_problem(index, &text);
-                    continue;
-                }
-                log.events.push(timed);
-            }
-            // Whole lines have a line break, which leaves an empty piece at the end.
-            Err(_) if index + 1 == n_pieces => {
-                log.is_torn = true;
-                log.add_problem(
-                    index,
-                    "it is torn: the program ended while it was written, and its event is lost",
-                );
-            }
-            Err(reason) => log.add_problem(index, &format!("it is skipped: {reason}")),
-        }
-    }
-    Ok(log)
+    let plan = read_logged_plan(header.plan_text().as_bytes())?;
+    let is_changed = header.plan_sha256() != stated_hash;
+    Ok(FoundHeader { header, plan, is_changed })
 }
 
-impl ReadLog {
-    /// Adds a problem of a line by its index, unless there are too many to list.
-    fn add_problem(&mut self, index: usize, text: &str) {
-        if self.problems.len() < MOST_PROBLEMS {
-            self.problems.push(LineProblem { line: index + 1, text: text.to_owned() });
-        }
-    }
+/// The first whole header in any line, with the number of its line from one.
+fn copy_of_header(bytes: &[u8]) -> Option<(usize, FoundHeader)> {
+    // A header that cannot be read is damaged too, and the next one is tried.
+    lines_of(bytes).find_map(|(index, line)| Some((index + 1, header_of(header_in(line)?).ok()?)))
 }
 
-/// The event of a line, or what is wrong with it.
-fn event_of(line: &[u8], plan: &Plan) -> Result<TimedEvent, String> {
-    if line.len() > MAX_LINE_BYTES {
-        return Err(format!("it has more than {MAX_LINE_BYTES} bytes"));
-    }
-    let wire: LineV1 = serde_json::from_slice(line).map_err(|error| reason_of(&error))?;
-    let timed = TimedEvent::from(wire);
-    if let Event::Answered(answer) = &timed.event {
-        let Some(part) = plan.part(&answer.trial.part) else {
-            return Err(format!("the plan has no part \"{}\"", answer.trial.part));
-        };
-        check(&answer.response, &answer.trial.task, &part.design).map_err(|error| error.to_string())?;
-        if let Some(shown) =
-            answer.trial.task.shown().iter().find(|shown| plan.stimulus(&shown.stimulus).is_none())
-        {
-            return Err(format!("the plan has no stimulus \"{}\"", shown.stimulus));
-        }
-    }
-    Ok(timed)
+/// Whether a line looks like an event of a log.
+fn has_events(bytes: &[u8]) -> bool {
+    lines_of(bytes).any(|(_, line)| line.starts_with(b"{\"event\":"))
 }
 
-/// The message of the parser without its line, which is that of the log.
-fn reason_of(error: &serde_json::Error) -> String {
-    let message = error.to_string();
-    plain(message.rsplit_once(" at line ").map_or(message.as_str(), |(words, _)| words))
+/// A first line that is not of a log is a damaged one, if there are events.
+fn without_header(error: ReadLogError) -> ReadLogError {
+    match error {
+        ReadLogError::Format(_) => ReadLogError::Damaged { reason: "it is not that of a log".to_owned() },
+        error => error,
+    }
 }
 
 fn error_of(fault: HeaderFault) -> ReadLogError {

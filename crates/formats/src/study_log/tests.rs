@@ -6,6 +6,7 @@ use std::sync::Arc;
 use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
 use shagreen_core::people::study::answer::{Answer, Event, Measured, Motion, Response};
 use shagreen_core::people::study::progress::{Step, replay};
+use shagreen_core::people::study::setup::{OutputDevice, ScreenScale, Setup};
 use shagreen_core::people::study::simulated::{Observers, World, simulated_session};
 use shagreen_core::people::study::trial::{Task, Trial};
 
@@ -47,6 +48,14 @@ fn read(bytes: &[u8]) -> ReadLog {
     read_study_log(bytes).unwrap()
 }
 
+/// The line of an answer with another seed, as after a damage of one digit.
+pub(super) fn with_other_seed(line: &str) -> String {
+    let (begin, rest) = line.split_once("\"seed\":").unwrap();
+    let (seed, end) = rest.split_once(',').unwrap();
+    let seed: u64 = seed.parse().unwrap();
+    format!("{begin}\"seed\":{},{end}", seed ^ 1)
+}
+
 #[test]
 fn every_design_comes_back() {
     for template in [
@@ -84,6 +93,7 @@ fn what_was_measured_comes_back() {
     let measured = Measured {
         response_secs: Some(2.5),
         motion: Some(Motion { distance_m: 0.5, mean_speed_mps: 0.125, mean_force_n: 0.75 }),
+        touched_m: vec![0.25, 0.125, 0.125],
         latency_secs: Some(0.015_625),
         device: "haptuator-mark-ii".to_owned(),
         stimulus_hashes: vec!["ab".to_owned(), "cd".to_owned()],
@@ -96,7 +106,74 @@ fn what_was_measured_comes_back() {
     assert_eq!(read(&bytes).events, events);
     let text = String::from_utf8(bytes).unwrap();
     assert!(text.contains("\"distance_mm\":500.0") && text.contains("\"latency_ms\":15.625"), "{text}");
-    assert_eq!(text.lines().count(), 2);
+    assert!(text.contains("\"touched_mm\":[250.0,125.0,125.0]"), "{text}");
+    // The header and its copy, and the answer.
+    assert_eq!(text.lines().count(), 3);
+}
+
+/// The devices, and that there are none, can be read in the file.
+#[test]
+fn the_setup_of_the_devices_and_a_refusal_come_back() {
+    let full = Setup {
+        output: Some(OutputDevice { id: "pulse:usb".to_owned(), name: "USB Audio".to_owned() }),
+        actuator: Some("haptuator-mark-ii".to_owned()),
+        masking: Some("Headphones".to_owned()),
+        pen: Some("Pen \"8\"".to_owned()),
+        screen: ScreenScale::Measured { pixels_per_mm: 5.125 },
+        program: "shagreen test".to_owned(),
+    };
+    let empty = Setup {
+        output: None,
+        actuator: None,
+        masking: None,
+        pen: None,
+        screen: ScreenScale::Assumed { pixels_per_mm: 3.78 },
+        program: String::new(),
+    };
+    let events: Vec<TimedEvent> =
+        [Event::SetUp(Box::new(full)), Event::SetUp(Box::new(empty)), Event::Refused]
+            .into_iter()
+            .map(|event| TimedEvent { unix_secs: 1.5e9, event })
+            .collect();
+    let bytes = bytes("abx", &events);
+    let log = read(&bytes);
+    assert_eq!((&log.events, log.problems.len(), log.has_refused()), (&events, 0, true));
+    assert!(!read(&write_study_log(&header("abx"), &events[..2])).has_refused());
+    let text = String::from_utf8(bytes).unwrap();
+    for words in [
+        "\"output\":\"USB Audio\",\"output_id\":\"pulse:usb\"",
+        "\"output\":\"no output\",\"output_id\":null,\"actuator\":null,\"masking_output\":null",
+        "\"screen\":\"assumed\",\"pixels_per_mm\":3.78",
+        "{\"event\":\"refuse\",\"unix_s\":1500000000.0}",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+}
+
+/// Logs of version 1.0: without the copy, without devices, without the distances over the stimuli.
+#[test]
+fn logs_of_the_first_version_are_read() {
+    let events = events("anchor-rating");
+    let now = String::from_utf8(bytes("anchor-rating", &events)).unwrap();
+    let then: Vec<String> = now
+        .lines()
+        .enumerate()
+        .filter(|(index, _)| *index != 1)
+        .map(|(_, line)| match line.split_once(",\"touched_mm\":[") {
+            Some((begin, rest)) => format!("{begin}{}", rest.split_once(']').unwrap().1),
+            None => line.replacen("\"version\":\"1.1\"", "\"version\":\"1.0\"", 1),
+        })
+        .collect();
+    let then = then.join("\n") + "\n";
+    assert!(then.contains("\"version\":\"1.0\"") && !then.contains("touched_mm"));
+    let log = read(then.as_bytes());
+    assert_eq!(
+        (log.problems.len(), log.events.len(), log.header),
+        (0, events.len(), header("anchor-rating"))
+    );
+    let record = read(then.as_bytes()).record();
+    assert!(record.setups.is_empty() && record.setup_at(0).is_none());
+    assert!(record.answers.iter().all(|answer| answer.measured.touched_m.is_empty()));
 }
 
 #[test]
@@ -112,8 +189,8 @@ fn a_torn_line_stays_and_its_trial_is_asked_again() {
     let (mut log, before) = StudyLog::resume(&path).unwrap();
     assert!(before.is_torn);
     assert_eq!(before.events, events[..4]);
-    assert_eq!((before.problems.len(), before.problems[0].line), (1, 6));
-    assert!(before.problems[0].to_string().starts_with("line 6: it is torn"), "{}", before.problems[0]);
+    assert_eq!((before.problems.len(), before.problems[0].line), (1, 7));
+    assert!(before.problems[0].to_string().starts_with("line 7: it is torn"), "{}", before.problems[0]);
     let progress = replay(Arc::new(before.plan.clone()), 1, &before.events()).unwrap().progress;
     let Event::Answered(lost) = &events[4].event else { panic!("an answer") };
     assert_eq!(progress.step(), Step::Trial(lost.trial.clone()));
@@ -125,7 +202,7 @@ fn a_torn_line_stays_and_its_trial_is_asked_again() {
     assert!(bytes.starts_with(torn), "nothing is removed");
     let after = read(&bytes);
     assert_eq!((after.events, after.is_torn), (events, false));
-    assert_eq!((after.problems.len(), after.problems[0].line), (1, 6));
+    assert_eq!((after.problems.len(), after.problems[0].line), (1, 7));
 }
 
 #[test]
@@ -137,9 +214,9 @@ fn damaged_lines_in_the_middle_are_named_and_skipped() {
         let (before, after) = (lines[..at].concat(), lines[at + 1..].concat());
         [&before[..], line, &after[..]].concat()
     };
-    let other_part = String::from_utf8(lines[4].to_vec()).unwrap().replace("\"roughness\"", "\"smoothness\"");
-    let out_of_range =
-        String::from_utf8(lines[4].to_vec()).unwrap().replace("\"sliders\":[", "\"sliders\":[1e3,");
+    let fifth = String::from_utf8(lines[5].to_vec()).unwrap();
+    let other_part = fifth.replace("\"roughness\"", "\"smoothness\"");
+    let out_of_range = fifth.replace("\"sliders\":[", "\"sliders\":[1e3,");
     for (line, words) in [
         (&b"\0\0\0\0\n"[..], "it is skipped"),
         (b"{\"event\":\"answer\"\n", "it is skipped: it ends too early"),
@@ -147,12 +224,12 @@ fn damaged_lines_in_the_middle_are_named_and_skipped() {
         (b"{\"event\":\"sneeze\"}\n", "`sneeze` is unknown"),
         (other_part.as_bytes(), "the plan has no part \"smoothness\""),
         (out_of_range.as_bytes(), "2 values are given, but 1 are needed"),
-        (lines[3], "is answered before; the first answer counts"),
+        (lines[4], "is answered before; the first answer counts"),
     ] {
-        let log = read(&with(4, line));
+        let log = read(&with(5, line));
         assert_eq!(
             (log.problems.len(), log.problems[0].line, log.is_torn),
-            (1, 5, false),
+            (1, 6, false),
             "{:?}",
             log.problems
         );
@@ -160,8 +237,16 @@ fn damaged_lines_in_the_middle_are_named_and_skipped() {
         assert_eq!(log.events.len(), events.len() - 1);
         assert!(!log.events.contains(&events[3]) && log.events.contains(&events[4]));
     }
+    // A digit of the seed has changed: the line is readable, but not an answer to the trial of this participant.
+    let flipped = with_other_seed(&fifth);
+    let log = read(&with(5, flipped.as_bytes()));
+    assert_eq!((log.problems.len(), log.problems[0].line, log.events.len()), (1, 6, events.len() - 1));
+    assert!(log.problems[0].text.contains("has another seed"), "{:?}", log.problems);
+    // The trial is asked again, and its second answer counts.
+    let log = read(&[with(5, flipped.as_bytes()), lines[5].to_vec()].concat());
+    assert_eq!((log.problems.len(), log.events.len()), (1, events.len()));
     // Empty lines mean nothing.
-    let spaced = read(&with(4, &[&b"\n"[..], lines[4], b"  \r\n"].concat()));
+    let spaced = read(&with(5, &[&b"\n"[..], lines[5], b"  \r\n"].concat()));
     assert_eq!((spaced.events, spaced.problems.len()), (events, 0));
 }
 
@@ -174,8 +259,9 @@ fn a_log_without_its_header_says_what_is_wrong() {
     };
     check("", "the file is empty");
     check("{\"format\":\"shagreen-project\",\"version\":\"1.0\"}\n", "this is not the log of a study");
-    check(&good.replacen("\"version\":\"1.0\"", "\"version\":\"2.0\"", 1), "the log has version 2.0");
-    check(&good[..good.len() - 20], "the first line of the log is damaged");
+    check(&good.replace("\"version\":\"1.1\"", "\"version\":\"2.0\""), "the log has version 2.0");
+    let first = good.lines().next().unwrap();
+    check(&first[..first.len() - 20], "the first line of the log is damaged");
     check(&good.replace("\"number\":1", "\"number\":0"), "numbered from 1");
     check(&good.replace("simulated-01", "p01"), "exactly if the participant is");
     check(
@@ -240,7 +326,8 @@ proptest! {
     fn a_cut_log_loses_only_its_last_line(share in 0.0..1.0_f64) {
         let events = events("abx");
         let whole = bytes("abx", &events);
-        let first = whole.iter().position(|byte| *byte == b'\n').unwrap() + 1;
+        // The header and its copy.
+        let first = bytes("abx", &[]).len();
         let cut = first + (share * (whole.len() - first) as f64) as usize;
         let log = read(&whole[..cut]);
         let n_whole = whole[first..cut].split(|byte| *byte == b'\n').count() - 1;

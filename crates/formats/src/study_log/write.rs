@@ -1,6 +1,6 @@
 //! Whole logs, for sessions that are over before they are written: those of simulated participants.
 
-use super::header::HeaderV1;
+use super::header::header_lines;
 use super::line::LineV1;
 use super::{LogHeader, TimedEvent};
 
@@ -8,10 +8,13 @@ use super::{LogHeader, TimedEvent};
 ///
 /// The answers of a person are appended one by one instead ([`super::StudyLog`]), so that none is lost.
 pub fn write_study_log(header: &LogHeader, events: &[TimedEvent]) -> Vec<u8> {
-    // Keys are strings, and numbers that are not finite become null.
-    let mut bytes = serde_json::to_vec(&HeaderV1::of(header)).unwrap_or_default();
-    bytes.push(b'\n');
+    let mut bytes = Vec::new();
+    for line in header_lines(header) {
+        bytes.extend(line);
+        bytes.push(b'\n');
+    }
     for event in events {
+        // Keys are strings, and numbers that are not finite become null.
         bytes.extend(serde_json::to_vec(&LineV1::from(event)).unwrap_or_default());
         bytes.push(b'\n');
     }

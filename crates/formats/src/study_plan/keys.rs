@@ -6,7 +6,7 @@ use super::wire::PartV1;
 const KEYS: [(&str, &[&str]); 11] = [
     ("sorting", &["stimuli", "groups"]),
     ("relevance", &["stimuli", "adjectives", "questionnaire"]),
-    ("rating", &["stimuli", "scales", "questionnaire", "slider_mm"]),
+    ("rating", &["stimuli", "scales", "own_scales", "questionnaire", "slider_mm"]),
     ("dissimilarity", &["pairs", "first", "second", "stimuli", "reference"]),
     ("same-different", &["pairs", "first", "second", "stimuli", "segments"]),
     (
@@ -35,7 +35,8 @@ const KEYS: [(&str, &[&str]); 11] = [
 
 /// Keys of the part that its design does not have; `None` if there is no such design.
 pub(super) fn stray_keys(part: &PartV1) -> Option<Vec<&'static str>> {
-    let (_, known) = KEYS.iter().find(|(design, _)| *design == part.design)?;
+    let design = part.design.as_deref()?;
+    let (_, known) = KEYS.iter().find(|(of, _)| *of == design)?;
     Some(stated(part).into_iter().filter(|key| !known.contains(key)).collect())
 }
 
@@ -47,6 +48,7 @@ fn stated(part: &PartV1) -> Vec<&'static str> {
         ("questionnaire", part.questionnaire.is_some()),
         ("adjectives", part.adjectives.is_some()),
         ("scales", part.scales.is_some()),
+        ("own_scales", part.own_scales.is_some()),
         ("slider_mm", part.slider_mm.is_some()),
         ("pairs", part.pairs.is_some()),
         ("first", part.first.is_some()),

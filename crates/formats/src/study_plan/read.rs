@@ -4,52 +4,46 @@ mod designs;
 
 use shagreen_core::people::study::order::Order;
 use shagreen_core::people::study::plan::{
-    Design, MAX_PARTS, MAX_STIMULI, MaskingNoise, NoiseColor, Part, Plan, Source, Stimulus, Timing, Variant,
+    Design, MaskingNoise, NoiseColor, Part, Plan, Source, Stimulus, Timing, USUAL_TOUCH_MM, Variant,
 };
 
+use super::key_problem::KeyProblem;
 use super::keys::stray_keys;
-use super::wire::{ColorV1, PartV1, PlanV1, StimulusV1, VariantV1};
+use super::wire::{ColorV1, PartV1, StimulusV1, Tables, VariantV1};
 
 /// A plan, and problems of its keys.
 pub(super) struct Draft {
     pub(super) plan: Plan,
     pub(super) problems: Vec<KeyProblem>,
+    /// Adjective pairs that are neither known nor declared. They are problems of a plan that is to be run, but plans in logs of
+    /// earlier versions have such pairs.
+    pub(super) undeclared: Vec<KeyProblem>,
 }
 
-/// A problem of a key.
-pub(super) struct KeyProblem {
-    pub(super) key: String,
-    pub(super) text: String,
-    /// Whether the whole table is not what was meant, so that its other problems mean nothing.
-    hides_table: bool,
-}
-
-impl KeyProblem {
-    /// Whether a problem with this key follows from this one.
-    pub(super) fn hides(&self, key: &str) -> bool {
-        let table = self.key.rsplit_once('.').map_or("", |(table, _)| table);
-        self.hides_table && key.strip_prefix(table).is_some_and(|rest| rest.starts_with('.'))
-    }
-}
-
-/// Returns what a file says, with defaults for what is missing.
-pub(super) fn draft(mut wire: PlanV1) -> Draft {
-    // One too many is enough to be refused.
-    wire.stimulus.truncate(MAX_STIMULI + 1);
-    wire.part.truncate(MAX_PARTS + 1);
-    let mut reader = Reader { at: String::new(), problems: Vec::new() };
+/// Returns what a file says, with defaults for what is missing. `problems` are those of its tables.
+pub(super) fn draft(tables: Tables, problems: Vec<KeyProblem>) -> Draft {
+    let Tables { plan: wire, stimuli, parts } = tables;
+    let mut reader = Reader { at: String::new(), problems, undeclared: Vec::new() };
+    let name = reader.stated("name", wire.name);
+    let seed = reader.stated("seed", wire.seed);
     let part_order = reader.order("part_order", wire.part_order.as_deref(), Order::Listed);
-    let ids: Vec<String> = wire.stimulus.iter().map(|stimulus| stimulus.id.clone()).collect();
-    let mut stimuli = Vec::with_capacity(wire.stimulus.len());
-    for (index, stimulus) in wire.stimulus.into_iter().enumerate() {
-        reader.at = format!("stimulus[{}].", index + 1);
-        stimuli.push(reader.stimulus(stimulus));
-    }
-    let mut parts = Vec::with_capacity(wire.part.len());
-    for (index, part) in wire.part.into_iter().enumerate() {
-        reader.at = format!("part[{}].", index + 1);
-        parts.push(reader.part(part, &ids));
-    }
+    let ids: Vec<String> = stimuli.iter().filter_map(|stimulus| stimulus.id.clone()).collect();
+    let stimuli: Vec<Stimulus> = stimuli
+        .into_iter()
+        .enumerate()
+        .map(|(index, stimulus)| {
+            reader.at = format!("stimulus[{}].", index + 1);
+            reader.stimulus(stimulus)
+        })
+        .collect();
+    let parts: Vec<Part> = parts
+        .into_iter()
+        .enumerate()
+        .map(|(index, part)| {
+            reader.at = format!("part[{}].", index + 1);
+            reader.part(part, &ids)
+        })
+        .collect();
     let masking_noise = wire.masking_noise.map(|noise| MaskingNoise {
         color: match noise.color {
             ColorV1::White => NoiseColor::White,
@@ -58,39 +52,66 @@ pub(super) fn draft(mut wire: PlanV1) -> Draft {
         level_db: noise.level_db,
     });
     let plan = Plan {
-        name: wire.name,
+        name,
         description: wire.description,
         consent: wire.consent,
-        seed: wire.seed,
+        seed,
         part_order,
         masking_noise,
         stimuli,
         parts,
     };
-    Draft { plan, problems: reader.problems }
+    Draft { plan, problems: reader.problems, undeclared: reader.undeclared }
 }
 
 struct Reader {
     /// Key of the table that is being read, with its final dot.
     at: String,
     problems: Vec<KeyProblem>,
+    /// Adjective pairs that are neither known nor declared.
+    undeclared: Vec<KeyProblem>,
 }
 
 impl Reader {
     fn add(&mut self, key: &str, text: impl Into<String>) {
-        self.push(key, text.into(), false);
+        self.problems.push(KeyProblem::new(format!("{}{key}", self.at), text));
     }
 
-    fn push(&mut self, key: &str, text: String, hides_table: bool) {
-        self.problems.push(KeyProblem { key: format!("{}{key}", self.at), text, hides_table });
+    /// Whether something is wrong with a key already, so that its value is missing.
+    fn has_problem(&self, key: &str) -> bool {
+        let key = format!("{}{key}", self.at);
+        self.problems.iter().any(|problem| problem.key == key)
+    }
+
+    fn add_missing(&mut self, key: &str, text: &str) {
+        if !self.has_problem(key) {
+            self.add(key, text);
+        }
+    }
+
+    /// The value of a key that every table of this kind has.
+    fn stated<T: Default>(&mut self, key: &str, value: Option<T>) -> T {
+        value.unwrap_or_else(|| {
+            self.add_missing(key, "the key is missing; add it");
+            T::default()
+        })
     }
 
     /// The value of a key that the design needs.
     fn need<T: Default>(&mut self, key: &str, value: Option<T>) -> T {
         value.unwrap_or_else(|| {
-            self.add(key, "the key is missing, but this design needs it; add it");
+            self.add_missing(key, "the key is missing, but this design needs it; add it");
             T::default()
         })
+    }
+
+    /// Notes that a part has no design, so that its other problems mean nothing.
+    fn hide_part(&mut self, text: &str) {
+        self.add_missing("design", text);
+        let key = format!("{}design", self.at);
+        for problem in self.problems.iter_mut().filter(|problem| problem.key == key) {
+            problem.hide_table();
+        }
     }
 
     fn order(&mut self, key: &str, id: Option<&str>, usual: Order) -> Order {
@@ -104,20 +125,24 @@ impl Reader {
 
     fn stimulus(&mut self, wire: StimulusV1) -> Stimulus {
         let StimulusV1 { id, texture, profile, variant, kbps, window_mm, level_db } = wire;
+        let id = self.stated("id", id);
         let source = match (texture, profile) {
             (Some(texture), None) => Source::Texture(texture),
             (None, Some(profile)) => Source::Profile(profile),
+            // Its name is not known, and no texture is missing.
+            (None, None) if self.has_problem("profile") => Source::Profile(id.clone()),
             (texture, _) => {
-                self.add("texture", "state either `texture` or `profile`");
+                self.add_missing("texture", "state either `texture` or `profile`");
                 Source::Texture(texture.unwrap_or_else(|| id.clone()))
             }
         };
+        let is_misspelled = self.has_problem("variant");
         let kind = variant.unwrap_or(VariantV1::Original);
         for (key, is_stated, of) in [
             ("kbps", kbps.is_some(), VariantV1::Coded),
             ("window_mm", window_mm.is_some(), VariantV1::Reconstructed),
         ] {
-            if is_stated && kind != of {
+            if is_stated && kind != of && !is_misspelled {
                 self.add(key, "the variant does not have this key; remove it, or change `variant`");
             }
         }
@@ -133,17 +158,20 @@ impl Reader {
     }
 
     fn part(&mut self, wire: PartV1, all_stimuli: &[String]) -> Part {
-        if let Some(stray) = stray_keys(&wire) {
-            for key in stray {
-                let text =
-                    format!("the design {} has no such key; remove it, or change `design`", wire.design);
-                self.add(key, text);
+        let known = Design::IDS.join(", ");
+        match (&wire.design, stray_keys(&wire)) {
+            (Some(design), Some(stray)) => {
+                for key in stray {
+                    let text = format!("the design {design} has no such key; remove it, or change `design`");
+                    self.add(key, text);
+                }
             }
-        } else {
-            let text =
-                format!("\"{}\" is not a design; choose one of {}", wire.design, Design::IDS.join(", "));
-            self.push("design", text, true);
+            (Some(design), None) => {
+                self.hide_part(&format!("\"{design}\" is not a design; choose one of {known}"));
+            }
+            (None, _) => self.hide_part(&format!("the key is missing; choose one of {known}")),
         }
+        let id = self.stated("id", wire.id.clone());
         let design = self.design(&wire, all_stimuli);
         let order = self.order("order", wire.order.as_deref(), Order::default());
         let timing = Timing {
@@ -152,8 +180,16 @@ impl Reader {
             gap_secs: wire.gap_s.unwrap_or(0.0),
             pause_secs: wire.pause_s.unwrap_or(0.0),
         };
+        let touch_mm = match (wire.require_touch, wire.touch_mm) {
+            (Some(false), Some(_)) => {
+                self.add("touch_mm", "no touch is required, so the key has no effect; remove it");
+                None
+            }
+            (Some(false), None) => None,
+            (_, stated) => Some(stated.unwrap_or(USUAL_TOUCH_MM)),
+        };
         Part {
-            id: wire.id,
+            id,
             title: wire.title,
             instructions: wire.instructions,
             design,
@@ -162,6 +198,7 @@ impl Reader {
             n_practice: wire.practice.unwrap_or(0),
             break_every: wire.break_every,
             max_plays: wire.max_plays,
+            touch_mm,
             timing,
         }
     }

@@ -1,5 +1,7 @@
 //! Built-in plans: one for each published experiment, and one for each further design.
 
+use shagreen_core::people::study::plan::Plan;
+
 /// A built-in plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StudyTemplate {
@@ -8,6 +10,9 @@ pub struct StudyTemplate {
     /// The plan file with its comments, to be changed by its user.
     pub text: &'static str,
 }
+
+/// Sentence in the consent text of the built-in plans, which must not reach participants.
+const PLACEHOLDER: &str = "Replace this text by the one that your ethics committee approved.";
 
 macro_rules! template {
     ($id:literal) => {
@@ -38,4 +43,9 @@ pub fn study_templates() -> &'static [StudyTemplate] {
 /// Returns the built-in plan with this identifier.
 pub fn study_template(id: &str) -> Option<StudyTemplate> {
     TEMPLATES.into_iter().find(|template| template.id == id)
+}
+
+/// Whether the consent text of a plan still asks to be replaced.
+pub fn has_placeholder_consent(plan: &Plan) -> bool {
+    plan.consent.contains(PLACEHOLDER)
 }

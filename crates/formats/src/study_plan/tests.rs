@@ -1,14 +1,18 @@
 use std::collections::BTreeSet;
 
 use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
+use shagreen_core::people::ratings::AdjectivePair;
 use shagreen_core::people::study::order::Order;
 use shagreen_core::people::study::plan::{
     Comparison, Condition, Design, MaskingNoise, MushraPage, NoiseColor, Part, Plan, Prompts, ShownControls,
-    Source, Statement, Stimulus, Timing, Variant, Varied, problems,
+    Source, Statement, Stimulus, Timing, USUAL_TOUCH_MM, Variant, Varied, problems,
 };
 use shagreen_core::people::study::staircase::{LaterFactor, StaircaseRule};
 
-use super::{StudyPlanError, read_study_plan, study_template, study_templates, write_study_plan};
+use super::{
+    StudyPlanError, has_placeholder_consent, read_logged_plan, read_study_plan, read_study_plan_with,
+    study_template, study_templates, write_study_plan,
+};
 use crate::starter::starter_library;
 
 /// A plan of two textures with this part.
@@ -43,6 +47,8 @@ fn the_templates_can_be_run_and_have_every_design() {
             }
         }
         assert!(!plan.consent.is_empty() && !plan.description.is_empty(), "{}", template.id);
+        assert!(has_placeholder_consent(&plan), "{}", template.id);
+        assert!(!has_placeholder_consent(&Plan { consent: "I agree.".to_owned(), ..plan.clone() }));
         assert!(plan.parts.iter().all(|part| !part.title.is_empty() && !part.instructions.is_empty()));
         designs.extend(plan.parts.iter().map(|part| part.design.id()));
         // Comments are for people; what is written has the same meaning without them.
@@ -95,8 +101,18 @@ fn the_templates_have_the_published_structure() {
 
 #[test]
 fn an_unknown_key_is_named_with_its_line() {
-    check_error(&with_part("design = \"abx\"\npears = []"), &["`pears` is unknown", "at line 17"]);
-    check_error("format = \"shagreen-study\"\nversion = \"1.0\"\nname = 3\nseed = 1", &["at line 3"]);
+    check_error(
+        &with_part("design = \"abx\"\npears = []"),
+        &["line 17, part[1].pears: the key is unknown; did you mean pairs?"],
+    );
+    check_error(
+        "format = \"shagreen-study\"\nversion = \"1.0\"\nname = 3\nseed = 1",
+        &[
+            "the plan has 2 problems: part: there is no part",
+            "line 3, name: it has the number 3 where a text",
+        ],
+    );
+    check_error("format = \"shagreen-study\"\nversion = \"1.0\"\nname = = 3", &["at line 3"]);
     check_error("x = 1", &["the field `format` is missing"]);
     check_error("format = \"shagreen-actuator\"\nversion = \"1.0\"", &["not a plan of a study"]);
     check_error("format = \"shagreen-study\"\nversion = \"2.0\"\nnew = 1", &["version 2.0", "newer version"]);
@@ -105,6 +121,117 @@ fn an_unknown_key_is_named_with_its_line() {
     let long =
         with_part("design = \"abx\"").replace("name = \"a\"", &format!("name = \"{}\"", "a".repeat(2000)));
     check_error(&long, &["the name of the study", "2000 characters"]);
+}
+
+/// Misspelled keys, values of another kind, missing keys, unknown stimuli and missing textures together, in their order.
+#[test]
+fn problems_of_all_kinds_are_reported_at_once() {
+    let text = "format = \"shagreen-study\"\nversion = \"1.0\"\nnme = \"a\"\nseed = \"one\"\nmasking_noise = { color = \"blue\", level_db = -20 }\n\n[[stimulus]]\nid = \"cork\"\ntexture = \"crok\"\nlevel = 3\n\n[[stimulus]]\nid = \"felt\"\ntexture = \"felt\"\nvariant = \"codet\"\nkbps = 3\n\n[[part]]\ndesign = \"abx\"\npairs = [[\"cork\", \"tin\"]]\nrepeats = \"two\"\n";
+    let advice = |source: &Source| {
+        (*source == Source::Texture("crok".to_owned())).then(|| "did you mean cork?".to_owned())
+    };
+    let StudyPlanError::Problems(problems) = read_study_plan_with(text.as_bytes(), advice).unwrap_err()
+    else {
+        panic!("a list of problems")
+    };
+    let found: Vec<(Option<usize>, &str)> =
+        problems.iter().map(|problem| (problem.line, problem.key.as_str())).collect();
+    let expected = [
+        (None, "name"),
+        (Some(3), "nme"),
+        (Some(4), "seed"),
+        (Some(5), "masking_noise"),
+        (Some(9), "stimulus[1].texture"),
+        (Some(10), "stimulus[1].level"),
+        (Some(15), "stimulus[2].variant"),
+        (Some(18), "part[1].id"),
+        (Some(20), "part[1].pairs"),
+        (Some(21), "part[1].repeats"),
+    ];
+    assert_eq!(found, expected, "{problems:?}");
+    for (index, words) in [
+        (0, "the key is missing; add it"),
+        (1, "did you mean name?"),
+        (3, "`blue` is unknown; the known words are `white`"),
+        (4, "there is no texture \"crok\"; did you mean cork?"),
+        (5, "did you mean level_db?"),
+        (6, "`codet` is unknown; the known words are `original`"),
+        (8, "there is no stimulus \"tin\""),
+        (9, "it has the text \"two\" where a whole number"),
+    ] {
+        assert!(problems[index].text.contains(words), "{words}: {}", problems[index]);
+    }
+}
+
+/// A profile of another kind has one problem: no texture with the identifier of its stimulus is missing.
+#[test]
+fn a_profile_that_is_no_text_is_reported_once() {
+    let text = with_part("design = \"abx\"\npairs = [[\"cork\", \"felt\"]]");
+    let text = text.replace("texture = \"felt\"", "profile = 3");
+    let advice = |source: &Source| {
+        (*source != Source::Texture("cork".to_owned())).then(|| "correct the name".to_owned())
+    };
+    let error = read_study_plan_with(text.as_bytes(), advice).unwrap_err().to_string();
+    assert!(error.starts_with("the plan has 1 problem: line 12, stimulus[2].profile: it has the"), "{error}");
+}
+
+#[test]
+fn a_table_with_one_pair_of_brackets_is_explained() {
+    let text = with_part("design = \"abx\"\npairs = [[\"cork\", \"felt\"]]").replace("[[part]]", "[part]");
+    check_error(
+        &text,
+        &["the plan has 1 problem: line 14, part: one pair of brackets is missing; write [[part]]"],
+    );
+}
+
+#[test]
+fn pairs_of_adjectives_are_known_or_declared() {
+    let rated = |keys: &str| with_part(&format!("design = \"rating\"\nslider_mm = 127\n{keys}"));
+    check_error(
+        &rated("scales = [\"rough-smooth\", \"rogh-smooth\", \"cold-warm\"]"),
+        &[
+            "the plan has 2 problems: line 18, part[1].scales: \"rogh-smooth\" is not a known pair of adjectives; did you mean rough-smooth? known are rough-smooth, flat-bumpy",
+            "\"cold-warm\" is not a known pair of adjectives; known are rough-smooth",
+            "list it in `own_scales` too",
+        ],
+    );
+    let pairs = |keys: &str| {
+        let plan = read_study_plan(rated(keys).as_bytes()).unwrap();
+        let Design::Rating { pairs, .. } = &plan.parts[0].design else { panic!("ratings") };
+        let names: Vec<String> = pairs.iter().map(AdjectivePair::name).collect();
+        // The declaration is written too.
+        assert_eq!(read_study_plan(&write_study_plan(&plan)), Ok(plan));
+        names
+    };
+    assert_eq!(pairs("scales = [\"Soft - Hard\"]"), ["Soft-Hard"], "either adjective can be at 0");
+    let declared = "own_scales = [\"cold-warm\", \"wet-dry\"]";
+    assert_eq!(pairs(declared), ["cold-warm", "wet-dry"]);
+    assert_eq!(
+        pairs(&format!("scales = [\"wet-dry\", \"hard-soft\"]\n{declared}")),
+        ["wet-dry", "hard-soft", "cold-warm"]
+    );
+    assert_eq!(pairs(&format!("questionnaire = \"authoring-2020\"\n{declared}")).len(), 6);
+    // A log of an earlier version may have pairs that were never declared.
+    let earlier = rated("scales = [\"cold-warm\"]");
+    assert!(read_study_plan(earlier.as_bytes()).is_err() && read_logged_plan(earlier.as_bytes()).is_ok());
+}
+
+#[test]
+fn a_touch_is_required_unless_the_plan_says_otherwise() {
+    let touch_mm = |keys: &str| {
+        let text = with_part(&format!("design = \"abx\"\npairs = [[\"cork\", \"felt\"]]\n{keys}"));
+        let plan = read_study_plan(text.as_bytes()).unwrap();
+        let touch_mm = plan.parts[0].touch_mm;
+        assert_eq!(read_study_plan(&write_study_plan(&plan)), Ok(plan));
+        touch_mm
+    };
+    assert_eq!(touch_mm(""), Some(USUAL_TOUCH_MM));
+    assert_eq!(touch_mm("require_touch = true"), Some(USUAL_TOUCH_MM));
+    assert_eq!(touch_mm("touch_mm = 7.5"), Some(7.5));
+    assert_eq!(touch_mm("require_touch = false"), None);
+    let with = |keys: &str| with_part(&format!("design = \"abx\"\npairs = [[\"cork\", \"felt\"]]\n{keys}"));
+    check_error(&with("touch_mm = 0"), &["line 18, part[1].touch_mm: 0 is out of range; choose 1 to 1000"]);
+    check_error(&with("require_touch = false\ntouch_mm = 5"), &["line 19, part[1].touch_mm: no touch"]);
 }
 
 /// Problems of the keys and of the plan together, each with its line.
@@ -186,6 +313,7 @@ fn full(number: f64, count: usize, text: &str) -> Plan {
         n_practice: count,
         break_every: (count > 0).then_some(count),
         max_plays: None,
+        touch_mm: (count % 2 == 0).then_some(1.0 + number),
         timing: Timing {
             lead_secs: number,
             stimulus_secs: Some(number),

@@ -8,6 +8,7 @@ use shagreen_core::people::study::plan::{
 use shagreen_core::people::study::staircase::{LaterFactor, StaircaseRule};
 
 use super::{FORMAT, VERSION};
+use crate::questionnaire::is_known_pair;
 use crate::toml_text::quoted;
 
 /// Serializes a plan. Reading it again gives the same plan.
@@ -68,6 +69,10 @@ fn part_lines(part: &Part) -> Vec<String> {
     ];
     lines.extend(part.break_every.map(|n| format!("break_every = {n}")));
     lines.extend(part.max_plays.map(|n| format!("max_plays = {n}")));
+    lines.push(match part.touch_mm {
+        Some(least_mm) => format!("touch_mm = {least_mm}"),
+        None => "require_touch = false".to_owned(),
+    });
     lines.push(format!("lead_s = {}", part.timing.lead_secs));
     lines.extend(part.timing.stimulus_secs.map(|secs| format!("stimulus_s = {secs}")));
     lines.push(format!("gap_s = {}", part.timing.gap_secs));
@@ -87,7 +92,11 @@ fn design_lines(design: &Design) -> Vec<String> {
         }
         Design::Rating { stimuli, pairs, slider_mm } => {
             let names: Vec<String> = pairs.iter().map(AdjectivePair::name).collect();
-            vec![words("stimuli", stimuli), words("scales", &names), format!("slider_mm = {slider_mm}")]
+            let own: Vec<String> =
+                pairs.iter().filter(|pair| !is_known_pair(pair)).map(AdjectivePair::name).collect();
+            let first = [words("stimuli", stimuli), words("scales", &names)];
+            let declared = (!own.is_empty()).then(|| words("own_scales", &own));
+            first.into_iter().chain(declared).chain([format!("slider_mm = {slider_mm}")]).collect()
         }
         Design::Dissimilarity { pairs, reference } => {
             let reference = reference.as_ref().map(|reference| format!("reference = {}", pair(reference)));

@@ -19,6 +19,18 @@ pub(super) struct Rows {
     pub(super) weights: Vec<f64>,
     /// Classes of the set that have a row, in ascending order.
     pub(super) present: Vec<usize>,
+    /// Exponent on the number of photos of a class that weights its photos.
+    class_exponent: f64,
+}
+
+/// One row for each photo: the mean of its views, which is steadier than a single one.
+pub(super) struct MeanRows {
+    /// Photos × features, scaled.
+    pub(super) features: Array2<f64>,
+    /// Hardness of each photo, 0 to 100.
+    pub(super) hard_soft: Vec<f64>,
+    /// Weight of each photo.
+    pub(super) weights: Vec<f64>,
 }
 
 impl Rows {
@@ -54,7 +66,31 @@ impl Rows {
                 *to = f64::from(x);
             }
         }
-        Self { scale, features, classes, hard_soft, weights, present }
+        Self { scale, features, classes, hard_soft, weights, present, class_exponent }
+    }
+
+    /// Returns the means of the views of these photos, by index, in the scale of the rows.
+    pub(super) fn photos(&self, set: &PhotoSet, photos: &[usize]) -> MeanRows {
+        let photos: Vec<&SeenPhoto> = photos.iter().map(|index| &set.photos[*index]).collect();
+        let mut features = Array2::zeros((photos.len(), self.scale.n_features()));
+        for (photo, mut to) in photos.iter().zip(features.rows_mut()) {
+            let views = photo.features.late.iter().take(N_VIEWS);
+            let share = 1.0 / views.len().max(1) as f64;
+            for view in views {
+                for (to, x) in to.iter_mut().zip(self.scale.apply(view)) {
+                    *to += share * f64::from(x);
+                }
+            }
+        }
+        MeanRows {
+            features,
+            hard_soft: photos.iter().map(|photo| set.classes[photo.class].hard_soft).collect(),
+            weights: class_weights(
+                photos.iter().map(|photo| photo.class),
+                set.classes.len(),
+                self.class_exponent,
+            ),
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-use super::{PhotoHeads, PhotoHeadsError, class_weights};
+use super::{HeadParts, KernelSize, PhotoHeads, PhotoHeadsError, class_weights};
 use crate::model_file::Numbers;
 use crate::photo_config::{HeadWeights, PhotoConfig};
 use crate::photo_model::made_up::fast;
@@ -14,7 +14,7 @@ fn learn(set: &PhotoSet, seed: u64) -> PhotoHeads {
 fn classes_and_hardness_of_new_photos_are_predicted() {
     let (set, others) = (photo_set(60, 1), photo_set(30, 2));
     let heads = learn(&set, 1);
-    let (mut n_right, mut off) = (0, [0.0; 2]);
+    let (mut n_right, mut off) = (0, [0.0; 3]);
     for photo in &others.photos {
         let looked = heads.look(&photo.features.late[..3]).unwrap();
         let of_class = |class: usize| looked.probabilities.iter().map(|of| of[class]).sum::<f64>();
@@ -23,6 +23,7 @@ fn classes_and_hardness_of_new_photos_are_predicted() {
         let label = others.classes[photo.class].hard_soft;
         let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
         off[0] += (mean(&looked.ridge.unwrap()) - label).abs() / 30.0;
+        off[2] += (mean(&looked.kernel.unwrap()) - label).abs() / 30.0;
         let of_networks: Vec<f64> = looked.networks.iter().map(|of| mean(of)).collect();
         off[1] += (mean(&of_networks) - label).abs() / 30.0;
         assert!(looked.distances.iter().all(|distance| *distance < 3.0), "{:?}", looked.distances);
@@ -58,6 +59,12 @@ fn heads_come_back_from_a_file_and_a_seed_gives_the_same() {
     assert_eq!(looked(&read), looked(&heads));
     let wrong = PhotoHeads::read(&numbers, "photo.", &fast(5), [heads.n_features(), 4], heads.parts());
     assert!(matches!(wrong, Err(PhotoHeadsError::File(_))));
+    let n_components = heads.parts().kernel.unwrap().n_components;
+    for n_examples in [0, 44, usize::MAX] {
+        let kernel = Some(KernelSize { n_examples, n_components });
+        let parts = HeadParts { kernel, ..heads.parts() };
+        assert!(PhotoHeads::read(&numbers, "photo.", &fast(5), sizes, parts).is_err(), "{n_examples}");
+    }
     let missing = PhotoHeads::read(&numbers, "other.", &fast(5), sizes, heads.parts());
     assert!(matches!(missing, Err(PhotoHeadsError::File(_))));
 }
@@ -65,12 +72,12 @@ fn heads_come_back_from_a_file_and_a_seed_gives_the_same() {
 #[test]
 fn heads_without_weight_are_not_trained() {
     let set = photo_set(30, 3);
-    let hardness = HeadWeights { ridge: 0.0, classes: 1.0, network: 0.0 };
+    let hardness = HeadWeights { ridge: 0.0, classes: 1.0, network: 0.0, kernel: 0.0 };
     let all: Vec<usize> = (0..30).collect();
     let heads = PhotoHeads::learn(&set, &all, &PhotoConfig { hardness, ..fast(1) }).unwrap();
-    assert_eq!(heads.parts(), (false, 0));
+    assert_eq!(heads.parts(), HeadParts { has_ridge: false, kernel: None, n_networks: 0 });
     let looked = heads.look(&set.photos[0].features.late).unwrap();
-    assert!(looked.ridge.is_none() && looked.networks.is_empty());
+    assert!(looked.ridge.is_none() && looked.kernel.is_none() && looked.networks.is_empty());
 }
 
 #[test]

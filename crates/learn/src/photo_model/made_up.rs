@@ -68,7 +68,7 @@ pub(crate) fn photo_model(set: &PhotoSet) -> PhotoModel {
     let n_early = set.photos[0].features.early.len();
     let drawn = drawn_heads(n_early);
     let rough: Vec<_> =
-        set.photos.iter().map(|photo| drawn_roughness(&drawn, &photo.features.early).unwrap()).collect();
+        set.photos.iter().map(|photo| drawn_roughness(&drawn, &photo.features).unwrap()).collect();
     let mut judged: Vec<JudgedPhoto> = Vec::new();
     for kind in LeftOut::ALL {
         for numbered in folds(set, kind, 4).iter().enumerate() {

@@ -81,12 +81,28 @@ fn damage_and_impossible_numbers_are_refused() {
 }
 
 #[test]
+fn the_roughness_of_a_small_photo_is_that_of_its_materials() {
+    let model = photo_model(&photo_set(48, 2));
+    let sized = |side_px, first| {
+        let of = views(&photo_set(6, 7).photos[1]);
+        let early = vec![first, of.early[1]];
+        model.predict(&PhotoFeatures { early, side_px, ..of }).unwrap().attributes
+    };
+    // Early features change the roughness of a large photo only, and never the hardness.
+    assert_ne!(sized(224, 0.0)[0], sized(224, 3.0)[0]);
+    assert_eq!(sized(223, 0.0), sized(223, 3.0));
+    assert_eq!(sized(224, 0.0)[1], sized(128, 0.0)[1]);
+}
+
+#[test]
 fn what_nothing_can_be_learned_from_is_refused() {
     let set = photo_set(12, 2);
     let refused = |set| PhotoModel::learn(set, drawn_heads(2), &[], &config(), card()).unwrap_err();
     assert!(matches!(refused(&set), PictureModelError::Unjudged));
-    assert!(drawn_roughness(&drawn_heads(2), &[1.0, 2.0]).unwrap().deviation > 0.0);
-    assert!(matches!(drawn_roughness(&drawn_heads(2), &[1.0]), Err(PictureModelError::Picture { .. })));
+    let early = |early: &[f32]| PhotoFeatures { early: early.to_vec(), ..views(&set.photos[0]) };
+    assert!(drawn_roughness(&drawn_heads(2), &early(&[1.0, 2.0])).unwrap().unwrap().deviation > 0.0);
+    let short = drawn_roughness(&drawn_heads(2), &early(&[1.0]));
+    assert!(matches!(short, Err(PictureModelError::Picture { .. })));
     let model = photo_model(&photo_set(24, 2));
     let short = PhotoFeatures { late: vec![vec![0.0; 3]; N_VIEWS], ..views(&set.photos[0]) };
     assert!(matches!(model.predict(&short), Err(PictureModelError::Photos(_))));

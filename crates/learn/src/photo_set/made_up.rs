@@ -28,6 +28,7 @@ pub(crate) fn photo_set(n: usize, seed: u64) -> PhotoSet {
             late: (0..N_VIEWS + 2).map(&mut late).collect(),
             early: vec![class as f32, index as f32],
             detail: Detail { rms: 0.1, sharpness_db: -4.0 },
+            side_px: 512,
         };
         let (file, sha256) = (format!("{index}.jpg"), format!("{index:064}"));
         SeenPhoto { file, sha256, class, source: index / 3 % 4, features }

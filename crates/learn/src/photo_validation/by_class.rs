@@ -49,8 +49,10 @@ pub fn predictions_of_classes(
         };
         for (predictor, predict) in predictors(index) {
             for (class, photos) in by_class.iter().enumerate() {
-                let of_photos: Option<Vec<f64>> = photos.iter().map(|photo| predict(photo)).collect();
-                let Some(of_photos) = of_photos.filter(|of| !of.is_empty()) else { continue };
+                let of_photos: Vec<f64> = photos.iter().filter_map(|photo| predict(photo)).collect();
+                if of_photos.is_empty() {
+                    continue;
+                }
                 all.push(ClassPrediction {
                     class,
                     attribute,

@@ -9,12 +9,12 @@ use shagreen_core::maths::gaussian_process::Estimate;
 fn config() -> PhotoConfig {
     let usual = PhotoConfig::usual(1);
     let network = SmallNetworkConfig { n_hidden: 6, n_epochs: 3, n_networks: 1, ..usual.network };
-    let hardness = HeadWeights { network: 0.0, ..usual.hardness };
+    let hardness = HeadWeights { network: 0.0, kernel: 0.0, ..usual.hardness };
     PhotoConfig { ridge_penalty: 0.01, network, hardness, ..usual }
 }
 
 fn judged(set: &PhotoSet, config: &PhotoConfig) -> Vec<JudgedPhoto> {
-    let drawn = vec![Estimate { mean: 40.0, deviation: 9.0 }; set.photos.len()];
+    let drawn = vec![Some(Estimate { mean: 40.0, deviation: 9.0 }); set.photos.len()];
     let of = |kind| {
         let folds = folds(set, kind, 4);
         let of_fold = |(number, fold)| judge(set, (number, fold), &drawn, config).unwrap();

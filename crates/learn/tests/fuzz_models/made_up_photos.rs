@@ -38,6 +38,7 @@ pub(crate) fn photo_set() -> PhotoSet {
                 early: features(90),
                 late: (0..=N_VIEWS).map(features).collect(),
                 detail: Detail { rms: 0.1, sharpness_db: -4.0 },
+                side_px: 512,
             },
         }
     };
@@ -66,7 +67,7 @@ pub(crate) fn photo_model() -> Vec<u8> {
     let usual = PhotoConfig::usual(1);
     let network = SmallNetworkConfig { n_hidden: 2, n_epochs: 1, n_networks: 1, ..usual.network };
     let config = PhotoConfig { network, ..usual };
-    let rough = vec![Estimate { mean: 40.0, deviation: 9.0 }; set.photos.len()];
+    let rough = vec![Some(Estimate { mean: 40.0, deviation: 9.0 }); set.photos.len()];
     let mut judged = Vec::new();
     for numbered in folds(&set, LeftOut::Classes, 3).iter().enumerate() {
         judged.extend(judge(&set, numbered, &rough, &config).unwrap());

@@ -9,6 +9,7 @@ mod comparison;
 mod discrimination;
 mod dissimilarity;
 mod files;
+mod limits;
 mod measure;
 mod mushra;
 mod read;
@@ -26,18 +27,20 @@ use anyhow::bail;
 use serde_json::{Map, Value, json};
 use shagreen_core::people::ratings::{Rating, RelevanceVote};
 use shagreen_core::people::sorting::Sort;
+use shagreen_core::people::study::analysis::limits::{Limited, limited_answers};
 use shagreen_core::people::study::answer::Record;
 use shagreen_core::people::study::plan::{Design, Part, Plan};
 use shagreen_core::space::LabelSource;
 use shagreen_core::words::counted;
 use shagreen_formats::figure::Figure;
 use shagreen_formats::library::free_id;
-use shagreen_formats::study_tables::tidy_csv;
+use shagreen_formats::study_plan::has_placeholder_consent;
+use shagreen_formats::study_tables::{pairs_csv, tidy_csv};
 
 pub use comparison::{ConditionComparison, SIGNIFICANT, UsedTest};
 pub use files::{check_report_files, report_files};
 pub use measure::Measure;
-pub use read::{ParticipantKind, StudyLogs, read_logs};
+pub use read::{ParticipantKind, StudyLogs, read_logs, read_logs_with};
 pub use text::report_text;
 
 use self::read::Participant;
@@ -58,16 +61,22 @@ pub struct StudyReport {
     pub n_participants: usize,
     /// Number of participants who answered all trials.
     pub n_complete: usize,
+    /// Number of further participants who did not agree to the consent text.
+    pub n_refused: usize,
+    /// Answers that say less than they seem to.
+    pub limited: Vec<Limited>,
     /// Results of each part, in the order of the plan.
     pub parts: Vec<PartReport>,
     /// Judgments from which a space is built.
     pub judgments: StudyJudgments,
-    /// Sentences about damaged logs, missing answers, and participants who need a look.
+    /// Sentences about the conditions of the answers, damaged logs, missing answers, and participants who need a look.
     pub warnings: Vec<String>,
     /// Everything as a JSON object.
     pub json: Value,
     /// All answers as a tidy table (CSV).
     pub answers_csv: Vec<u8>,
+    /// Counts and d′ of the same-different pairs (CSV), if the study has any.
+    pub pairs_csv: Option<Vec<u8>>,
 }
 
 /// Results of one part.
@@ -117,12 +126,21 @@ struct Analyzed {
 /// log has answers.
 pub fn analyze(logs: &StudyLogs, kind: Option<ParticipantKind>) -> anyhow::Result<StudyReport> {
     let kind = logs.chosen(kind)?;
-    let (participants, mut warnings) = logs.participants(kind);
+    let (participants, of_logs) = logs.participants(kind);
+    let n_refused = logs.n_refused(kind);
     if participants.is_empty() {
-        bail!("no log has answers that can be analyzed: {}", warnings.join("; "));
+        let refused = (n_refused > 0).then(|| refused(n_refused));
+        let why: Vec<String> = refused.into_iter().chain(of_logs).collect();
+        bail!("no log has answers that can be analyzed: {}", why.join("; "));
     }
     let plan = Arc::clone(logs.plan());
     let records: Vec<Record> = participants.iter().map(|participant| participant.record.clone()).collect();
+    let limited = limited_answers(&plan, &records);
+    let mut warnings: Vec<String> = limited.iter().map(limits::warning).collect();
+    if kind == ParticipantKind::People && has_placeholder_consent(&plan) {
+        warnings.push("the participants agreed to the placeholder of the consent text".to_owned());
+    }
+    warnings.extend(of_logs);
     let source = source_of(records.len(), kind);
     let mut judgments = StudyJudgments::default();
     let mut parts = Vec::with_capacity(plan.parts.len());
@@ -140,18 +158,26 @@ pub fn analyze(logs: &StudyLogs, kind: Option<ParticipantKind>) -> anyhow::Resul
         let figures = std::mem::take(&mut analyzed.figures).into_iter().map(named).collect();
         parts.push(reported(part, &records, analyzed, figures));
     }
-    let json = report_json(&plan, kind, &participants, &parts, &warnings);
-    Ok(StudyReport {
+    let mut report = StudyReport {
         kind,
         n_participants: records.len(),
         n_complete: participants.iter().filter(|participant| participant.is_complete).count(),
+        n_refused,
+        limited,
         parts,
         judgments,
         warnings,
-        json,
+        json: Value::Null,
         answers_csv: tidy_csv(&plan, &records),
+        pairs_csv: pairs_csv(&plan, &records),
         plan,
-    })
+    };
+    report.json = report_json(&report, &participants);
+    Ok(report)
+}
+
+fn refused(n: usize) -> String {
+    format!("{} did not agree to the consent text", counted(n, "participant"))
 }
 
 impl StudyReport {
@@ -159,7 +185,14 @@ impl StudyReport {
     pub fn who(&self) -> String {
         let n = counted(self.n_participants, "participant");
         match self.kind {
-            ParticipantKind::People => format!("{n}, {} with all answers", self.n_complete),
+            ParticipantKind::People => {
+                let of_answers = format!("{n}, {} with all answers", self.n_complete);
+                if self.n_refused == 0 {
+                    of_answers
+                } else {
+                    format!("{of_answers}; {}", refused(self.n_refused))
+                }
+            }
             ParticipantKind::Simulated => format!("{n}, all SIMULATED: the results say nothing about people"),
         }
     }
@@ -220,13 +253,7 @@ fn reported(
     }
 }
 
-fn report_json(
-    plan: &Plan,
-    kind: ParticipantKind,
-    participants: &[Participant],
-    parts: &[PartReport],
-    warnings: &[String],
-) -> Value {
+fn report_json(report: &StudyReport, participants: &[Participant]) -> Value {
     let person = |participant: &Participant| {
         json!({
             "participant": participant.record.participant,
@@ -248,14 +275,16 @@ fn report_json(
         "format": FORMAT,
         "version": VERSION,
         "created_by": super::program(),
-        "study": plan.name,
-        "n_participants": participants.len(),
-        "n_complete": participants.iter().filter(|participant| participant.is_complete).count(),
-        "simulated": kind == ParticipantKind::Simulated,
-        "label_source": kind.label_source().id(),
+        "study": report.plan.name,
+        "n_participants": report.n_participants,
+        "n_complete": report.n_complete,
+        "n_refused": report.n_refused,
+        "simulated": report.kind == ParticipantKind::Simulated,
+        "label_source": report.kind.label_source().id(),
         "participants": participants.iter().map(person).collect::<Vec<_>>(),
-        "results": parts.iter().map(result).collect::<Map<String, Value>>(),
-        "warnings": warnings,
+        "limits": limits::json(&report.limited),
+        "results": report.parts.iter().map(result).collect::<Map<String, Value>>(),
+        "warnings": report.warnings,
     })
 }
 

@@ -1,12 +1,13 @@
 //! The logs of a study: one file for each participant, in one folder.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use shagreen_core::people::panel::simulated_name;
 use shagreen_core::people::study::plan::Plan;
 use shagreen_formats::bounded_file::FileKind;
-use shagreen_formats::study_log::{LogHeader, ReadLog, read_study_log};
+use shagreen_formats::study_log::{ReadLog, read_study_log, recover_study_log};
 
 use crate::file::{ending_of, file_name, in_file, one_line, read_file};
 
@@ -24,8 +25,18 @@ pub struct ListedLog {
 
 /// Folder of the logs of a plan file, unless another one is chosen: beside the plan, with its name and `-logs`.
 pub fn usual_log_folder(plan: &Path) -> PathBuf {
+    beside(plan, "logs")
+}
+
+/// Folder of the logs of simulated participants, unless another one is chosen, so that they do not lie among those of people:
+/// beside the plan, with its name and `-logs-simulated`.
+pub fn usual_simulated_log_folder(plan: &Path) -> PathBuf {
+    beside(plan, "logs-simulated")
+}
+
+fn beside(plan: &Path, what: &str) -> PathBuf {
     let stem = plan.file_stem().unwrap_or_default().to_string_lossy();
-    plan.with_file_name(format!("{stem}-logs"))
+    plan.with_file_name(format!("{stem}-{what}"))
 }
 
 /// Reads the log at a path.
@@ -35,6 +46,16 @@ pub fn usual_log_folder(plan: &Path) -> PathBuf {
 pub fn load_log(path: &Path) -> anyhow::Result<ReadLog> {
     let bytes = read_file(path, FileKind::Table)?;
     read_study_log(&bytes).with_context(|| in_file(path))
+}
+
+/// Reads the log at a path whose first line is damaged, with the text of the plan of its study.
+///
+/// # Errors
+/// The file cannot be read, or it has no answers to trials of this plan.
+pub(super) fn recover_log(path: &Path, plan_text: &str) -> anyhow::Result<ReadLog> {
+    let bytes = read_file(path, FileKind::Table)?;
+    let name = path.file_stem().unwrap_or_default().to_string_lossy();
+    recover_study_log(&bytes, plan_text, &name).with_context(|| in_file(path))
 }
 
 /// The logs of a folder, in the order of their names; none if the folder does not exist. Other files are ignored.
@@ -75,11 +96,31 @@ pub(super) fn check_same_study(plan: &Plan, logs: &[ListedLog]) -> anyhow::Resul
     Ok(())
 }
 
-/// Number of the next participant of this kind, from 1: above those of all logs. It determines the orders.
+/// Number of the next participant of this kind, from 1, which determines the orders: the lowest one whose participants all
+/// refused, so that Latin squares stay balanced, or else the one above those of all logs.
 pub(super) fn next_number(logs: &[ListedLog], is_simulated: bool) -> usize {
-    let headers = logs.iter().filter_map(|listed| listed.log.as_ref().ok()).map(|log| &log.header);
-    let numbers = headers.filter(|header| header.is_simulated() == is_simulated).map(LogHeader::number);
-    1 + numbers.max().unwrap_or(0)
+    let (mut refused, mut taken) = (BTreeSet::new(), BTreeSet::new());
+    let read = logs.iter().filter_map(|listed| listed.log.as_ref().ok());
+    for log in read.filter(|log| log.header.is_simulated() == is_simulated) {
+        let numbers = if log.has_refused() { &mut refused } else { &mut taken };
+        numbers.insert(log.header.number());
+    }
+    let above = 1 + refused.iter().chain(&taken).max().copied().unwrap_or(0);
+    // A log that cannot be read may have the number of its pseudonym.
+    let is_unreadable = |number: &usize| {
+        let name = format!("{}.{LOG_ENDING}", pseudonym(*number, is_simulated));
+        logs.iter().any(|listed| listed.log.is_err() && file_name(&listed.path) == name)
+    };
+    let new = || (above..).find(|number| !is_unreadable(number)).unwrap_or(above);
+    refused.difference(&taken).next().copied().unwrap_or_else(new)
+}
+
+/// First pseudonym, from that of this number on, that no file of the folder has.
+pub(super) fn free_pseudonym(logs: &[ListedLog], number: usize, is_simulated: bool) -> String {
+    let names: BTreeSet<String> = logs.iter().map(|listed| file_name(&listed.path)).collect();
+    let is_free = |name: &String| !names.contains(&format!("{name}.{LOG_ENDING}"));
+    let mut pseudonyms = (number..).map(|number| pseudonym(number, is_simulated));
+    pseudonyms.find(is_free).unwrap_or_default()
 }
 
 /// Pseudonym of the participant with this number, from 1: `p01`, or `simulated-01` for a simulated one.

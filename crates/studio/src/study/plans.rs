@@ -5,13 +5,15 @@ use std::sync::Arc;
 
 use anyhow::{Context as _, bail};
 use shagreen_core::people::study::plan::{Plan, missing_sources};
+use shagreen_core::words::near;
 use shagreen_formats::bounded_file::FileKind;
+use shagreen_formats::study_log::ReadLog;
 use shagreen_formats::study_plan::{
-    PlanProblem, StudyPlanError, StudyTemplate, located_problems, read_study_plan, study_templates,
+    PlanProblem, StudyPlanError, StudyTemplate, located_problems, read_study_plan, read_study_plan_with,
+    study_templates,
 };
 
 use crate::file::{in_file, read_file};
-use crate::near_names::near;
 use crate::study::textures::StudyTextures;
 
 /// A plan with the text of its file.
@@ -42,9 +44,24 @@ impl StudyPlan {
         Ok(Self { plan, text: String::from_utf8_lossy(bytes).into_owned() })
     }
 
+    /// Reads the bytes of a plan file whose textures and profiles must be among these.
+    ///
+    /// # Errors
+    /// See [`StudyPlanError`]; [`StudyPlanError::Problems`] has all problems with their lines and keys, missing textures
+    /// included.
+    pub fn read_with(bytes: &[u8], textures: &StudyTextures) -> Result<Self, StudyPlanError> {
+        let plan = Arc::new(read_study_plan_with(bytes, |source| textures.advice(source))?);
+        Ok(Self { plan, text: String::from_utf8_lossy(bytes).into_owned() })
+    }
+
+    /// The plan with which the session of a log began.
+    pub fn of_log(log: &ReadLog) -> Self {
+        Self { plan: Arc::new(log.plan.clone()), text: log.header.plan_text().to_owned() }
+    }
+
     /// Stimuli whose texture or profile does not exist, with their lines in the plan file.
     pub fn missing(&self, textures: &StudyTextures) -> Vec<PlanProblem> {
-        located_problems(&self.text, missing_sources(&self.plan, |source| textures.has(source)))
+        located_problems(&self.text, missing_sources(&self.plan, |source| textures.advice(source)))
     }
 
     /// Checks that all textures and profiles of the plan exist.
@@ -65,6 +82,15 @@ impl StudyPlan {
 pub fn load_plan(path: &Path) -> anyhow::Result<StudyPlan> {
     let bytes = read_file(path, FileKind::Small)?;
     StudyPlan::read(&bytes).with_context(|| in_file(path))
+}
+
+/// Reads a plan file whose textures and profiles must be among these.
+///
+/// # Errors
+/// As [`load_plan`]; missing textures are among the problems.
+pub fn load_plan_with(path: &Path, textures: &StudyTextures) -> anyhow::Result<StudyPlan> {
+    let bytes = read_file(path, FileKind::Small)?;
+    StudyPlan::read_with(&bytes, textures).with_context(|| in_file(path))
 }
 
 /// The built-in plans, in the order of lists.
@@ -97,8 +123,8 @@ pub fn template(id: &str) -> anyhow::Result<ListedTemplate> {
 
 #[cfg(test)]
 mod tests {
-    use super::{StudyPlan, load_plan, template, templates};
-    use crate::study::logs::{list_logs, usual_log_folder};
+    use super::{StudyPlan, load_plan, load_plan_with, template, templates};
+    use crate::study::logs::{list_logs, usual_log_folder, usual_simulated_log_folder};
     use crate::study::textures::StudyTextures;
     use shagreen_formats::starter::starter_library;
     use shagreen_formats::study_plan::StudyPlanError;
@@ -132,9 +158,31 @@ mod tests {
         assert!(matches!(StudyPlan::read(b"\xff"), Err(StudyPlanError::NotText { .. })));
     }
 
+    /// Keys, meaning and textures in one list, in the order of the file.
+    #[test]
+    fn missing_textures_are_reported_with_all_other_problems() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("plan.toml");
+        let text = template("anchor-rating").unwrap().study.text;
+        let text = text.replacen("texture = \"mdf\"", "texture = \"mfd\"", 1);
+        std::fs::write(&path, text.replace("repeats = 2", "repeat = 0")).unwrap();
+        let textures = StudyTextures::of_library(starter_library().unwrap());
+        let error = load_plan_with(&path, &textures).unwrap_err();
+        let Some(StudyPlanError::Problems(problems)) = error.downcast_ref::<StudyPlanError>() else {
+            panic!("{error:#}")
+        };
+        let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        assert_eq!(texts.len(), 2, "{texts:?}");
+        assert!(texts[0].contains("there is no texture \"mfd\"; did you mean mdf?"), "{texts:?}");
+        assert!(texts[1].contains("part[1].repeat: the key is unknown; did you mean repeats?"), "{texts:?}");
+        assert!(load_plan(&path).unwrap_err().to_string().contains("plan.toml"));
+    }
+
     #[test]
     fn logs_lie_beside_their_plan() {
         assert_eq!(usual_log_folder(Path::new("a/ten.toml")), Path::new("a/ten-logs"));
+        let simulated = usual_simulated_log_folder(Path::new("a/ten.toml"));
+        assert_eq!(simulated, Path::new("a/ten-logs-simulated"));
         assert!(list_logs(Path::new("no/such/folder")).unwrap().is_empty());
     }
 }

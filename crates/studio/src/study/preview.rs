@@ -8,6 +8,7 @@ use shagreen_core::people::study::plan::{Design, Part, Plan};
 use shagreen_core::people::study::progress::ProgressError;
 use shagreen_core::people::study::schedule::{part_order, trials};
 use shagreen_core::people::study::simulated::{Observers, SimulationError, World, simulated_session};
+use shagreen_core::people::study::touch::required_mm;
 use shagreen_core::people::study::trial::{Shown, Task, Trial};
 
 use crate::study::plans::StudyPlan;
@@ -45,6 +46,8 @@ pub struct PartPreview {
     pub is_estimated: bool,
     /// Number of offered breaks.
     pub n_breaks: usize,
+    /// Distance in mm that an answer needs over each stimulus, if any.
+    pub touch_mm: Option<f64>,
     /// Estimated time, in minutes.
     pub minutes: f64,
     /// Identifiers of the stimuli, which participants do not see.
@@ -113,8 +116,9 @@ fn part_preview(plan: &Plan, part: &Part, participant: usize, staircases: &[(Str
         n_practice: part.n_practice,
         n_scored,
         is_estimated: of_plan.is_none(),
-        // There is no break after the last trial.
-        n_breaks: part.break_every.map_or(0, |every| n_all.saturating_sub(1) / every.max(1)),
+        // Practice does not count, and there is no break after the last trial.
+        n_breaks: part.break_every.map_or(0, |every| n_scored.saturating_sub(1) / every.max(1)),
+        touch_mm: required_mm(part),
         minutes: n_all as f64 * trial_secs(part) / 60.0,
         stimuli: stimuli_of(part).into_iter().map(str::to_owned).collect(),
         trials: trials(plan, part, participant).iter().map(trial_line).collect(),
@@ -215,6 +219,21 @@ mod tests {
         assert!(part.trials[0].starts_with("1. practice: which one is X (A = "), "{}", part.trials[0]);
         assert!(shown.minutes > 1.0 && !part.is_estimated);
         assert!(preview(&study, 0).unwrap_err().to_string().contains("numbered from 1"));
+    }
+
+    /// Two trials of practice, and 16 that count with a break after each eight.
+    #[test]
+    fn breaks_are_those_of_the_session() {
+        let study = template("anchor-rating").unwrap().study;
+        let part = &preview(&study, 1).unwrap().parts[0];
+        assert_eq!((part.n_practice, part.n_scored, part.n_breaks), (2, 16, 1));
+    }
+
+    /// The tip moves by itself over stimuli that follow each other.
+    #[test]
+    fn a_touch_is_stated_where_an_answer_needs_one() {
+        let touch_mm = |id: &str| preview(&template(id).unwrap().study, 1).unwrap().parts[0].touch_mm;
+        assert_eq!((touch_mm("anchor-rating"), touch_mm("same-different")), (Some(20.0), None));
     }
 
     /// The number of trials of a staircase follows from answers, so it is estimated.

@@ -13,8 +13,11 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use shagreen_core::people::study::answer::{Answer, Event, Measured, Response, check, is_right};
 use shagreen_core::people::study::plan::{Part, Plan};
 use shagreen_core::people::study::progress::{Place, Progress, Step};
+use shagreen_core::people::study::setup::Setup;
 use shagreen_core::people::study::trial::Task;
 use shagreen_formats::study_log::{LogHeader, StudyLog, TimedEvent};
+
+use crate::study::program;
 
 pub use begin::{LogPlace, NewSession};
 pub use error::SessionError;
@@ -33,6 +36,8 @@ pub struct StudySession {
     further_practice: Vec<Progress>,
     n_answered: usize,
     has_ended: bool,
+    /// Devices that the log states, since this session began or went on.
+    setup: Option<Setup>,
     /// Event that could not be saved.
     unsaved: Option<TimedEvent>,
     warnings: Vec<String>,
@@ -59,6 +64,7 @@ impl StudySession {
             further_practice: Vec::new(),
             n_answered: 0,
             has_ended: false,
+            setup: None,
             unsaved: None,
             warnings: Vec::new(),
         }
@@ -139,6 +145,37 @@ impl StudySession {
         self.keep(Event::Consented).map(|_| ())
     }
 
+    /// The participant does not agree to the consent text. The session is over: nothing else is stored.
+    ///
+    /// # Errors
+    /// As [`StudySession::consent`]; [`SessionError::NoConsent`] if the session does not ask for it.
+    pub fn refuse(&mut self) -> Result<(), SessionError> {
+        if self.step() != Step::Consent {
+            return Err(SessionError::NoConsent);
+        }
+        self.keep(Event::Refused).map(|_| ())
+    }
+
+    /// Whether the participant did not agree to the consent text.
+    pub fn has_refused(&self) -> bool {
+        self.progress.has_refused()
+    }
+
+    /// Notes the devices in the log, if they differ from those that it states. Call it before the first step, and again whenever
+    /// the devices may have changed: equal ones cost a comparison. [`Setup::program`] is filled in here. Nothing is noted in a
+    /// session that is only for practice or is over, nor while an event is not saved.
+    ///
+    /// # Errors
+    /// As [`StudySession::consent`].
+    pub fn set_up(&mut self, setup: &Setup) -> Result<(), SessionError> {
+        let setup = Setup { program: program(), ..setup.clone() };
+        let is_noted = self.setup.as_ref() == Some(&setup);
+        if is_noted || self.is_practice() || self.has_unsaved() || self.step() == Step::Done {
+            return Ok(());
+        }
+        self.keep(Event::SetUp(Box::new(setup))).map(|_| ())
+    }
+
     /// The participant ends a break.
     ///
     /// # Errors
@@ -148,7 +185,8 @@ impl StudySession {
     }
 
     /// Takes the response to the trial of the present step, and returns when it is on the disk: whether it was right, if the
-    /// participant is to learn this.
+    /// participant is to learn this. A response without the touch that its part requires is taken, because only the window knows
+    /// what can still be felt ([`shagreen_core::people::study::touch`]); the analysis counts it.
     ///
     /// # Errors
     /// [`SessionError::Response`] and [`SessionError::NoTrial`] leave everything as it was. With [`SessionError::Log`], the
@@ -169,7 +207,7 @@ impl StudySession {
     /// # Errors
     /// As [`StudySession::consent`]. All answers are saved already.
     pub fn end(&mut self) -> Result<(), SessionError> {
-        if self.has_ended || self.step() != Step::Done {
+        if self.has_ended || self.has_refused() || self.step() != Step::Done {
             return Ok(());
         }
         self.keep(Event::Ended).map(|_| ())
@@ -202,7 +240,9 @@ impl StudySession {
 
     fn go_on_after(&mut self, event: Event) -> Result<Option<bool>, SessionError> {
         match event {
+            Event::SetUp(setup) => self.setup = Some(*setup),
             Event::Consented => self.progress.consent(),
+            Event::Refused => self.progress.refuse(),
             Event::Rested => self.progress.rest(),
             Event::Answered(answer) => {
                 self.progress.answer(&answer.trial, &answer.response)?;

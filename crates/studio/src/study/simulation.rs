@@ -93,17 +93,52 @@ pub fn simulated_logs(
     Ok(SimulatedLogs { logs, n_answers, world })
 }
 
-/// Writes the logs of simulated participants into a folder, all or none. They may replace logs of simulated participants, never
-/// those of people.
+/// Writes the logs of simulated participants into a folder without logs of simulated participants, all or none.
 ///
 /// # Errors
-/// The folder has logs of another plan, of further simulated participants, or a file of another kind in the place of a log; or
-/// the logs cannot be written.
+/// The folder has logs of simulated participants ([`ReplacesLogs`]) or of another plan, or a file of another kind in the place of
+/// a log; or the logs cannot be written.
 pub fn write_simulated_logs(
     study: &StudyPlan,
     simulated: &SimulatedLogs,
     folder: &Path,
 ) -> anyhow::Result<Vec<PathBuf>> {
+    let present = present_logs(study, folder)?;
+    let simulated_log = |listed: &&ListedLog| listed.log.as_ref().is_ok_and(|log| log.header.is_simulated());
+    if let Some(ListedLog { path, .. }) = present.iter().find(simulated_log) {
+        return Err(ReplacesLogs { path: path.clone() }.into());
+    }
+    write_logs(simulated, &present, folder)
+}
+
+/// Writes the logs of simulated participants into a folder, all or none, in the place of logs of simulated participants. Logs of
+/// people are never replaced.
+///
+/// # Errors
+/// The folder has logs of another plan, of further simulated participants, or a file of another kind in the place of a log; or
+/// the logs cannot be written.
+pub fn replace_simulated_logs(
+    study: &StudyPlan,
+    simulated: &SimulatedLogs,
+    folder: &Path,
+) -> anyhow::Result<Vec<PathBuf>> {
+    let present = present_logs(study, folder)?;
+    write_logs(simulated, &present, folder)
+}
+
+/// The folder has logs of simulated participants already.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the folder has logs of simulated participants, which are replaced only on request; choose another folder, or replace them: {}",
+    .path.display()
+)]
+pub struct ReplacesLogs {
+    /// Path of the first one.
+    pub path: PathBuf,
+}
+
+/// Logs of the folder, which must be of this study.
+fn present_logs(study: &StudyPlan, folder: &Path) -> anyhow::Result<Vec<ListedLog>> {
     if folder.exists() && !folder.is_dir() {
         bail!(
             "logs are written into a folder, but this is a file; choose another folder: {}",
@@ -112,10 +147,19 @@ pub fn write_simulated_logs(
     }
     let present = list_logs(folder)?;
     check_same_study(&study.plan, &present)?;
+    Ok(present)
+}
+
+/// Writes logs into a folder with these logs.
+fn write_logs(
+    simulated: &SimulatedLogs,
+    present: &[ListedLog],
+    folder: &Path,
+) -> anyhow::Result<Vec<PathBuf>> {
     let files: Vec<(PathBuf, Vec<u8>)> =
         simulated.logs.iter().map(|(name, bytes)| (log_path(folder, name), bytes.clone())).collect();
     let is_written = |path: &Path| files.iter().any(|(file, _)| file == path);
-    for ListedLog { path, log } in &present {
+    for ListedLog { path, log } in present {
         match log {
             Ok(log) if log.header.is_simulated() == is_written(path) => {}
             Ok(log) if log.header.is_simulated() => bail!(

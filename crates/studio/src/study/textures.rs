@@ -2,6 +2,7 @@
 
 use shagreen_core::people::study::plan::Source;
 use shagreen_core::signals::profile_stimuli::PaperTexture;
+use shagreen_core::words::near;
 use shagreen_formats::library::Library;
 use shagreen_formats::project::{AuthoredTexture, Project};
 
@@ -43,6 +44,32 @@ impl StudyTextures {
             Source::Texture(name) => self.find(name).is_some(),
             Source::Profile(name) => profile(name).is_some(),
         }
+    }
+
+    /// What to do about a texture or profile that does not exist; `None` about one that does.
+    pub fn advice(&self, source: &Source) -> Option<String> {
+        if self.has(source) {
+            return None;
+        }
+        let authored = self.project.iter().flat_map(|project| &project.authored);
+        let authored = authored.map(|texture| texture.name.as_str());
+        let near = match source {
+            Source::Texture(name) if authored.clone().any(|of| of == name) => {
+                return Some(
+                    "it is the name of several authored textures; rename them in the project".to_owned(),
+                );
+            }
+            Source::Texture(name) => {
+                let library = self.library.textures.iter().map(|texture| texture.id.as_str());
+                near(library.chain(authored), name)
+            }
+            Source::Profile(name) => near(PaperTexture::ALL.map(PaperTexture::name), name),
+        };
+        Some(if near.is_empty() {
+            "correct the name, or add it to the library".to_owned()
+        } else {
+            format!("did you mean {}?", near.join(", "))
+        })
     }
 
     /// The textures of the library or project.

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use egui::{
-    Align2, Button, Color32, ComboBox, CursorIcon, DragValue, FontId, Galley, Key, Pos2, Rect, Response,
-    Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2,
+    Align2, Button, Color32, ComboBox, CursorIcon, DragValue, FontId, Galley, Key, Label, Pos2, Rect,
+    Response, RichText, Role, Sense, Shape, Stroke, Ui, WidgetInfo, vec2,
 };
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::texture_path::{Along, AtEnd, MAX_KEYS};
@@ -17,7 +17,8 @@ use crate::look::axes::Axes;
 use crate::look::drag::dragged_to;
 use crate::look::list::ShowList as _;
 use crate::look::plot::short;
-use crate::look::theme::Tokens;
+use crate::look::theme::{Tokens, tokens};
+use crate::look::together::together_ui;
 use crate::panel::Panel;
 use crate::state::edit::{Edit, PathChange};
 use crate::strings::path as strings;
@@ -189,7 +190,8 @@ pub(super) fn path_points(
     commands
 }
 
-/// Draws the settings and actions of a path; returns the requested commands.
+/// Draws the settings and actions of a path in a wrapped row; returns the requested commands. What belongs together stays in one
+/// row.
 pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &UserPath) -> Vec<Command> {
     let mut commands = Vec::new();
     let is_playing = panel.session.is_path_playing();
@@ -198,6 +200,42 @@ pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &UserPath) 
     if ui.add_enabled(can_play, play).on_hover_text(strings::PLAY_HELP).clicked() {
         commands.push(Command::PlayPath(!is_playing));
     }
+    commands.extend(together_ui(ui, "path progress", |ui| progress_ui(ui, path)));
+    commands.extend(together_ui(ui, "path end", |ui| end_ui(ui, path)));
+    let mode = panel.session.blend_in_space(&panel.project.texture().blend).mode;
+    let can_keep = can_play && mode.makes_a_model() && !panel.session.is_preparing();
+    together_ui(ui, "path actions", |ui| {
+        let keep = ui.add_enabled(can_keep, Button::new(strings::KEEP));
+        if keep.on_hover_text(strings::KEEP_HELP).on_disabled_hover_text(strings::CANNOT_KEEP).clicked() {
+            commands.push(Command::KeepPath);
+        }
+        if ui.button(strings::CLEAR).on_hover_text(strings::CLEAR_HELP).clicked() {
+            commands.push(change(PathChange::Clear, None));
+        }
+    });
+    commands
+}
+
+/// Draws the label of a list.
+fn label_ui(ui: &mut Ui, text: &str) {
+    let text = RichText::new(text).small().color(tokens(ui.ctx()).text_weak);
+    ui.add(Label::new(text).selectable(false));
+}
+
+/// Draws what the texture follows along the path, and how far it goes; returns the requested commands.
+fn progress_ui(ui: &mut Ui, path: &UserPath) -> Vec<Command> {
+    let mut commands = Vec::new();
+    label_ui(ui, strings::ALONG_LABEL);
+    let name = |along: Along| if along == Along::Distance { strings::DISTANCE } else { strings::TIME };
+    let combo = ComboBox::from_id_salt("path along").width(76.0).selected_text(name(path.along));
+    let shown = combo.show_list(ui, |ui| {
+        for along in Along::ALL {
+            if ui.selectable_label(path.along == along, name(along)).clicked() {
+                commands.push(change(PathChange::Along, Some(UserPath { along, ..path.clone() })));
+            }
+        }
+    });
+    shown.response.accessible_name(strings::ALONG).on_hover_text(strings::ALONG_HELP);
     let mut changed = path.clone();
     let (factor, unit) = path.along.unit();
     let (value, range) = match path.along {
@@ -215,16 +253,13 @@ pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &UserPath) 
         *value = shown * factor;
         commands.push(change(PathChange::Length, Some(changed)));
     }
-    let name = |along: Along| if along == Along::Distance { strings::DISTANCE } else { strings::TIME };
-    let combo = ComboBox::from_id_salt("path along").width(76.0).selected_text(name(path.along));
-    let shown = combo.show_list(ui, |ui| {
-        for along in Along::ALL {
-            if ui.selectable_label(path.along == along, name(along)).clicked() {
-                commands.push(change(PathChange::Along, Some(UserPath { along, ..path.clone() })));
-            }
-        }
-    });
-    shown.response.accessible_name(strings::ALONG).on_hover_text(strings::ALONG_HELP);
+    commands
+}
+
+/// Draws what happens at the end of the path; returns the requested commands.
+fn end_ui(ui: &mut Ui, path: &UserPath) -> Vec<Command> {
+    let mut commands = Vec::new();
+    label_ui(ui, strings::AT_END_LABEL);
     let combo = ComboBox::from_id_salt("path end").width(84.0).selected_text(end_name(path.at_end));
     let shown = combo.show_list(ui, |ui| {
         for at_end in AtEnd::ALL {
@@ -234,15 +269,6 @@ pub(super) fn path_settings_ui(ui: &mut Ui, panel: &Panel<'_>, path: &UserPath) 
         }
     });
     shown.response.accessible_name(strings::AT_END).on_hover_text(strings::AT_END_HELP);
-    let mode = panel.session.blend_in_space(&panel.project.texture().blend).mode;
-    let can_keep = can_play && mode.makes_a_model() && !panel.session.is_preparing();
-    let keep = ui.add_enabled(can_keep, Button::new(strings::KEEP));
-    if keep.on_hover_text(strings::KEEP_HELP).on_disabled_hover_text(strings::CANNOT_KEEP).clicked() {
-        commands.push(Command::KeepPath);
-    }
-    if ui.button(strings::CLEAR).on_hover_text(strings::CLEAR_HELP).clicked() {
-        commands.push(change(PathChange::Clear, None));
-    }
     commands
 }
 

@@ -28,6 +28,9 @@ const LEFT_OUT: f32 = 0.5;
 /// Maximum number of textures shown as pictures; if there are more, each texture is a dot.
 const MAX_PICTURES: usize = 60;
 
+/// Maximum opacity of the ring around a texture.
+const MOST_OF_RING: f32 = 0.8;
+
 /// What [`sites_ui`] has drawn.
 pub(super) struct DrawnSites {
     pub(super) commands: Vec<Command>,
@@ -222,7 +225,7 @@ fn site_ui(ui: &Ui, panel: &Panel<'_>, site: &Site, pos: Pos2, look: Look, respo
     let ring = match site.rank {
         Some(rank) => Some(Stroke::new(3.0, t.parents[rank.min(2)])),
         None if response.hovered() || response.has_focus() => Some(Stroke::new(2.0, t.text)),
-        None => has_picture.then(|| Stroke::new(1.0, t.text_weak.gamma_multiply(0.8 * opacity))),
+        None => has_picture.then(|| Stroke::new(1.0, t.text_weak.gamma_multiply(opacity.min(MOST_OF_RING)))),
     };
     if let Some(ring) = ring {
         painter.circle_stroke(pos, radius, ring);

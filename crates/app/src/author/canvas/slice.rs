@@ -65,9 +65,10 @@ pub(super) fn size(nearness: f32) -> f32 {
     LEAST_SIZE + (1.0 - LEAST_SIZE) * nearness
 }
 
-/// Opacity of a texture with this nearness, relative to one on the slice.
+/// Opacity of a texture with this nearness, relative to one on the slice. It falls more slowly than the size, so that textures with
+/// a name stand out from the background.
 pub(super) fn opacity(nearness: f32) -> f32 {
-    LEAST_OPACITY + (1.0 - LEAST_OPACITY) * nearness
+    LEAST_OPACITY + (1.0 - LEAST_OPACITY) * nearness.max(0.0).sqrt()
 }
 
 /// Whether a texture with this nearness is named.
@@ -107,7 +108,8 @@ pub(super) fn legend_ui(ui: &Ui, corner: Pos2, lines: &[String], t: &Tokens) -> 
 
 #[cfg(test)]
 mod tests {
-    use super::{LEAST_OPACITY, LEAST_SIZE, LEAST_WIDTH, Slice, is_named, opacity, size};
+    use super::{LEAST_NAMED, LEAST_OPACITY, LEAST_SIZE, LEAST_WIDTH, Slice, is_named, opacity, size};
+    use crate::look::theme::{DARK, LIGHT, contrast};
     use shagreen_core::space::SpacePoint;
 
     fn at(coordinates: &[f64]) -> SpacePoint {
@@ -136,7 +138,18 @@ mod tests {
         let all: Vec<f32> = (0..=70).map(|step| near(30.0 + f64::from(step), 40.0)).collect();
         assert!(all.windows(2).all(|pair| pair[0] > pair[1] && pair[0] - pair[1] < 0.035), "{all:?}");
         assert!(is_named(all[0]) && !is_named(all[70]));
-        assert!((size(all[70]) - LEAST_SIZE).abs() < 0.01 && (opacity(all[70]) - LEAST_OPACITY).abs() < 0.01);
+        assert!((size(all[70]) - LEAST_SIZE).abs() < 0.01 && (opacity(all[70]) - LEAST_OPACITY).abs() < 0.04);
         assert_eq!(Slice::through(at(&[10.0, 20.0, 30.0]), &[]).width, LEAST_WIDTH);
+    }
+
+    /// A name beside a mark that cannot be seen would name nothing (WCAG 2.1, criterion 1.4.11).
+    #[test]
+    fn the_mark_of_a_named_texture_stands_out_in_both_themes() {
+        for t in [&DARK, &LIGHT] {
+            let faintest = t.text_weak.gamma_multiply(opacity(LEAST_NAMED));
+            let reached = contrast(t.background.blend(faintest), t.background);
+            assert!(reached >= 3.0, "{reached}");
+            assert!(contrast(t.text_weak, t.background) >= 4.5, "the name itself");
+        }
     }
 }

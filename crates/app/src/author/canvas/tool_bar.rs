@@ -1,6 +1,7 @@
 //! Row of controls at the top of the canvas.
 
 use egui::{Button, Rect, Shape, Ui, pos2, vec2};
+use shagreen_core::space::texture_path::UserPath;
 
 use super::BAR_TOP;
 use crate::author::canvas::map::{ShownMap, map_choice_ui, scale_ui};
@@ -52,8 +53,14 @@ pub(super) fn tool_bar(
         if ui.add(button).on_hover_text(strings::PATH_HELP).clicked() {
             commands.push(Command::TogglePathTool);
         }
-        if let Some(path) = &panel.project.texture().path {
-            commands.extend(path_settings_ui(ui, panel, path));
+        match &panel.project.texture().path {
+            Some(path) => commands.extend(path_settings_ui(ui, panel, path)),
+            None if tool.is_on => {
+                // They have their place before the first point, so that the canvas does not move while points are placed.
+                ui.disable();
+                path_settings_ui(ui, panel, &UserPath::default());
+            }
+            None => {}
         }
     });
     let back = row.min_rect();

@@ -1,11 +1,11 @@
 //! Latency from pen to drive signal, measured at every touch.
 
-use egui::Ui;
+use egui::{Ui, vec2};
 use egui_plot::{HLine, Line, Plot, PlotPoints};
 use shagreen_device::status::{STROKE_BUDGET_SECS, TAP_BUDGET_SECS};
 
 use super::{note, warning};
-use crate::look::plot::{after_start, fixed, title};
+use crate::look::plot::{after_start, fixed, legend_entry_ui, title};
 use crate::look::theme::tokens;
 use crate::session::{LATENCY_HISTORY_SECS, Session};
 use crate::strings::devices as strings;
@@ -18,6 +18,13 @@ const TOP_MS: f64 = 60.0;
 pub(super) fn latency_ui(ui: &mut Ui, session: &Session) {
     let t = tokens(ui.ctx());
     title(ui, strings::LATENCY, strings::LATENCY_UNIT);
+    let limits = strings::latency_limits(1e3 * STROKE_BUDGET_SECS, 1e3 * TAP_BUDGET_SECS);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing = vec2(4.0, 0.0);
+        legend_entry_ui(ui, t.accent, strings::LATENCY_OF_STROKES);
+        legend_entry_ui(ui, t.text_weak, strings::LATENCY_OF_TAPS);
+        legend_entry_ui(ui, t.warning, &limits);
+    });
     let history = session.latencies();
     let line = |of: fn(&(f64, f32, f32)) -> (f64, f32)| -> PlotPoints<'static> {
         history.iter().map(of).map(|(secs, latency)| [secs, (1e3 * f64::from(latency)).min(TOP_MS)]).collect()

@@ -14,6 +14,9 @@ use crate::strings::devices as strings;
 
 /// Number of channels offered if the output does not state its own.
 const CHANNELS: usize = 8;
+/// Height of a meter, and radius of its corners, in points.
+const METER_HEIGHT: f32 = 8.0;
+const METER_RADIUS: u8 = 2;
 /// Sample rate that converts buffer lengths while no output is open, in Hz.
 const USUAL_RATE_HZ: f64 = 48_000.0;
 
@@ -104,7 +107,9 @@ fn meters_ui(ui: &mut Ui, session: &Session) {
 
 /// Draws a bar with its number beside it, where the number is legible at any level.
 fn meter(ui: &mut Ui, share: f32, color: Color32) -> Response {
-    let bar = ui.add(ProgressBar::new(share).desired_width(170.0).fill(color));
+    // As wide as a slider, but low and without round ends, which would look like its handle.
+    let bar = ProgressBar::new(share).desired_width(ui.spacing().slider_width).desired_height(METER_HEIGHT);
+    let bar = ui.add(bar.corner_radius(METER_RADIUS).fill(color));
     ui.label(strings::percent(share));
     bar
 }

@@ -11,8 +11,10 @@ use crate::browse::{Asked, Browse};
 use crate::command::Command;
 use crate::command::prompt::PromptCommand;
 use crate::look::motion::busy_ui;
+use crate::look::primary::primary_ui;
 use crate::look::sheet_frame::sheet;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
+use crate::look::together::at_right_ui;
 use crate::sheets::folders_ui::folders_ui;
 use crate::sheets::import::batch::{Batch, Content, State};
 use crate::sheets::import::draft_ui::draft_ui;
@@ -136,7 +138,7 @@ impl ImportSheet {
         let mut child = ui.new_child(UiBuilder::new().max_rect(right).layout(Layout::top_down(Align::Min)));
         self.chosen_ui(&mut child, around);
         let foot = egui::Rect::from_min_max(egui::pos2(area.left(), area.bottom() - foot), area.max);
-        let builder = UiBuilder::new().max_rect(foot).layout(Layout::right_to_left(Align::Center));
+        let builder = UiBuilder::new().max_rect(foot).layout(Layout::left_to_right(Align::Center));
         self.foot_ui(&mut ui.new_child(builder), around)
     }
 
@@ -234,26 +236,11 @@ impl ImportSheet {
     fn foot_ui(&mut self, ui: &mut Ui, around: ImportContext<'_>) -> Vec<Command> {
         let t = tokens(ui.ctx());
         let mut commands = Vec::new();
-        let n_ready = self.batch.n_ready();
-        let accept = Button::new(RichText::new(strings::add(n_ready)).color(if n_ready > 0 {
-            t.on_accent
-        } else {
-            t.text_weak
-        }));
-        let accept = if n_ready > 0 { accept.fill(t.accent) } else { accept };
-        if ui.add_enabled(n_ready > 0, accept).clicked() {
-            let entries = self.batch.entries(around.library, around.space_rate_hz);
-            commands.push(Command::Edit(Edit::AddTextures(entries)));
-            commands.push(Command::CloseSheet);
-        }
-        if ui.button(strings::CANCEL).clicked() {
-            commands.push(Command::CloseSheet);
-        }
-        if self.batch.has_recordings() {
-            let can_place = self.can_place != Some(false);
-            let tick = Checkbox::new(&mut self.are_placed, strings::PLACE_THEM);
-            let tick = ui.add_enabled(can_place, tick);
-            tick.on_hover_text(strings::PLACE_THEM_HELP).on_disabled_hover_text(strings::CANNOT_PLACE);
+        if self.batch.is_working() {
+            busy_ui(ui);
+            ui.add(Label::new(RichText::new(strings::READING).small().color(t.text_weak)).selectable(false));
+        } else if self.batch.is_broken() {
+            ui.add(Label::new(RichText::new(strings::BROKEN).small().color(t.error)).selectable(false));
         }
         let is_left_out = |state: State| matches!(state, State::Failed);
         let waits = |state: State, file: u64| {
@@ -261,17 +248,23 @@ impl ImportSheet {
         };
         let files = self.batch.files().iter().map(|file| (self.batch.state(file), file.id));
         let n_left = files.filter(|(state, id)| is_left_out(*state) || waits(*state, *id)).count();
-        ui.add(
-            Label::new(RichText::new(strings::left_out(n_left)).small().color(t.warning)).selectable(false),
-        );
-        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            if self.batch.is_working() {
-                busy_ui(ui);
-                ui.add(
-                    Label::new(RichText::new(strings::READING).small().color(t.text_weak)).selectable(false),
-                );
-            } else if self.batch.is_broken() {
-                ui.add(Label::new(RichText::new(strings::BROKEN).small().color(t.error)).selectable(false));
+        let left_out = RichText::new(strings::left_out(n_left)).small().color(t.warning);
+        ui.add(Label::new(left_out).selectable(false));
+        if self.batch.has_recordings() {
+            let can_place = self.can_place != Some(false);
+            let tick = Checkbox::new(&mut self.are_placed, strings::PLACE_THEM);
+            let tick = ui.add_enabled(can_place, tick);
+            tick.on_hover_text(strings::PLACE_THEM_HELP).on_disabled_hover_text(strings::CANNOT_PLACE);
+        }
+        at_right_ui(ui, |ui| {
+            let n_ready = self.batch.n_ready();
+            if primary_ui(ui, &strings::add(n_ready), n_ready > 0).clicked() {
+                let entries = self.batch.entries(around.library, around.space_rate_hz);
+                commands.push(Command::Edit(Edit::AddTextures(entries)));
+                commands.push(Command::CloseSheet);
+            }
+            if ui.button(strings::CANCEL).clicked() {
+                commands.push(Command::CloseSheet);
             }
         });
         commands

@@ -1,41 +1,40 @@
 //! Right column: what must be ready before a participant begins.
 
-use egui::{Button, ComboBox, Label, RichText, Ui};
+use egui::{Button, Color32, ComboBox, Label, RichText, Sense, TextStyle, Ui, vec2};
 use shagreen_core::people::study::plan::{Design, MaskingNoise, NoiseColor};
 use shagreen_device::output::{NULL_ID, is_same_output};
+use shagreen_device::status::{LinkState, STROKE_BUDGET_SECS};
 
 use super::scale_ui::points_per_mm;
 use super::{Shown, StudiesPage};
 use crate::command::Command;
 use crate::command::studies::StudiesCommand;
 use crate::look::list::ShowList as _;
-use crate::look::theme::{GAP, tokens};
+use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::session::Session;
 use crate::strings::studies as strings;
 use crate::studies::runner::longest_line;
 
 /// Width of the choice of an output, in points.
 const OUTPUT_WIDTH: f32 = 220.0;
+/// Radius of the mark before a line, in points.
+const MARK: f32 = 3.5;
 
-/// Draws the state of the devices; returns the requested commands.
+/// Draws the checklist, with a warning for everything that is missing; returns the requested commands.
 pub(super) fn devices_ui(ui: &mut Ui, page: &mut StudiesPage, session: &Session) -> Vec<Command> {
-    let t = tokens(ui.ctx());
     let mut commands = Vec::new();
-    let warning = |ui: &mut Ui, text: &str| {
-        ui.add(Label::new(RichText::new(text).small().color(t.warning)).wrap());
-    };
-    let note = |ui: &mut Ui, text: String| {
-        ui.add(Label::new(RichText::new(text).small().color(t.text_weak)).wrap());
-    };
     ui.add(Label::new(RichText::new(strings::DEVICES).strong()).selectable(false));
-    match (session.output_id(), session.output_name()) {
-        (Some(NULL_ID), _) => warning(ui, strings::SILENT_OUTPUT),
-        (Some(_), Some(name)) => note(ui, format!("{}: {name}", strings::OUTPUT_READY)),
-        _ => warning(ui, strings::NO_OUTPUT),
-    }
+    output_ui(ui, session);
     match session.rig().actuator() {
-        Some(actuator) => note(ui, actuator.name.clone()),
-        None => warning(ui, strings::NO_ACTUATOR),
+        Some(actuator) => ready_ui(ui, &strings::actuator(&actuator.name)),
+        None => missing_ui(ui, strings::NO_ACTUATOR),
+    }
+    if session.output_id().is_some_and(|id| id != NULL_ID) {
+        latency_ui(ui, session);
+    }
+    let open = ui.button(strings::OPEN_DEVICES).on_hover_text(strings::OPEN_DEVICES_HELP);
+    if open.clicked() {
+        commands.push(Command::OpenDevices);
     }
     if let Some(noise) = page.open.as_ref().and_then(|open| open.study.plan.masking_noise) {
         ui.add_space(GAP);
@@ -43,23 +42,77 @@ pub(super) fn devices_ui(ui: &mut Ui, page: &mut StudiesPage, session: &Session)
     }
     if needs_scale(page) {
         ui.add_space(GAP);
-        match page.settings.pixels_per_mm {
-            Some(pixels_per_mm) => note(ui, strings::calibrated(pixels_per_mm)),
-            None => warning(ui, strings::NOT_CALIBRATED),
-        }
-        let longest_mm = f64::from(
-            longest_line(ui.ctx().content_rect().width())
-                / points_per_mm(page.settings.pixels_per_mm, ui.ctx()),
-        );
-        if let Some(needed_mm) = line_mm(page).filter(|needed_mm| *needed_mm > longest_mm) {
-            warning(ui, &strings::too_long(needed_mm, longest_mm));
-        }
-        let calibrate = ui.add(Button::new(strings::CALIBRATE)).on_hover_text(strings::CALIBRATE_HELP);
-        if calibrate.clicked() {
-            page.shown = Shown::Scale;
-        }
+        scale_line_ui(ui, page);
     }
+    if page.has_placeholder_consent() {
+        ui.add_space(GAP);
+        missing_ui(ui, strings::PLACEHOLDER_CONSENT);
+    }
+    ui.add_space(2.0 * GROUP_GAP);
     commands
+}
+
+/// Draws a line of the checklist that is in order.
+fn ready_ui(ui: &mut Ui, text: &str) {
+    let t = tokens(ui.ctx());
+    line_ui(ui, text, t.accent, t.text_weak);
+}
+
+/// Draws a line of the checklist about something that is missing.
+fn missing_ui(ui: &mut Ui, text: &str) {
+    let t = tokens(ui.ctx());
+    line_ui(ui, text, t.warning, t.warning);
+}
+
+/// Draws a text after a mark.
+fn line_ui(ui: &mut Ui, text: &str, mark: Color32, color: Color32) {
+    ui.horizontal_top(|ui| {
+        let height = ui.text_style_height(&TextStyle::Small);
+        let (area, _) = ui.allocate_exact_size(vec2(2.0 * MARK, height), Sense::hover());
+        ui.painter().circle_filled(area.center(), MARK, mark);
+        ui.add(Label::new(RichText::new(text).small().color(color)).wrap());
+    });
+}
+
+fn output_ui(ui: &mut Ui, session: &Session) {
+    let is_lost = session.status().is_some_and(|status| status.state == LinkState::Lost);
+    match (session.output_id(), session.output_name()) {
+        _ if session.is_muted() => missing_ui(ui, strings::OUTPUT_MUTED),
+        (Some(NULL_ID), _) => missing_ui(ui, strings::SILENT_OUTPUT),
+        (Some(_), Some(_)) if is_lost => missing_ui(ui, strings::OUTPUT_LOST),
+        (Some(_), Some(name)) => ready_ui(ui, &strings::output(name)),
+        _ => missing_ui(ui, strings::NO_OUTPUT),
+    }
+}
+
+/// Draws the latency, which is measured whenever somebody strokes.
+fn latency_ui(ui: &mut Ui, session: &Session) {
+    let latency = session.status().map(|status| status.latency).filter(|latency| latency.n_touches > 0);
+    match latency {
+        Some(latency) if latency.is_stroke_late() => {
+            missing_ui(ui, &strings::late(1e3 * latency.stroke_secs, 1e3 * STROKE_BUDGET_SECS));
+        }
+        Some(latency) => ready_ui(ui, &strings::latency(1e3 * latency.stroke_secs)),
+        None => missing_ui(ui, strings::NO_LATENCY),
+    }
+}
+
+/// Draws the scale of the screen, and the button that measures it.
+fn scale_line_ui(ui: &mut Ui, page: &mut StudiesPage) {
+    match page.settings.pixels_per_mm {
+        Some(pixels_per_mm) => ready_ui(ui, &strings::calibrated(pixels_per_mm)),
+        None => missing_ui(ui, strings::NOT_CALIBRATED),
+    }
+    let longest_mm = f64::from(
+        longest_line(ui.ctx().content_rect().width()) / points_per_mm(page.settings.pixels_per_mm, ui.ctx()),
+    );
+    if let Some(needed_mm) = line_mm(page).filter(|needed_mm| *needed_mm > longest_mm) {
+        missing_ui(ui, &strings::too_long(needed_mm, longest_mm));
+    }
+    let calibrate = ui.add(Button::new(strings::CALIBRATE)).on_hover_text(strings::CALIBRATE_HELP);
+    if calibrate.clicked() {
+        page.shown = Shown::Scale;
+    }
 }
 
 /// Whether the open plan has lines of a true length.
@@ -82,14 +135,19 @@ fn line_mm(page: &StudiesPage) -> Option<f64> {
 
 /// Draws the choice of the output of the masking noise; returns the requested command.
 fn masking_ui(ui: &mut Ui, page: &StudiesPage, session: &Session, noise: MaskingNoise) -> Option<Command> {
-    let t = tokens(ui.ctx());
     let color = match noise.color {
         NoiseColor::White => strings::WHITE,
         NoiseColor::Pink => strings::PINK,
     };
-    let text = format!("{}: {}", strings::MASKING, strings::masking(color, noise.level_db));
-    ui.add(Label::new(RichText::new(text).small().color(t.text_weak)).wrap());
+    let noise = format!("{}: {}", strings::MASKING, strings::masking(color, noise.level_db));
     let chosen = page.settings.masking_output.as_deref();
+    let is_same =
+        chosen.zip(session.output_id()).is_some_and(|(id, main)| id != NULL_ID && is_same_output(id, main));
+    match chosen {
+        None => missing_ui(ui, strings::MASKING_MISSING),
+        Some(_) if is_same => missing_ui(ui, strings::MASKING_SAME),
+        Some(_) => ready_ui(ui, &noise),
+    }
     let name_of = |id: &str| {
         let listed = session.outputs().iter().find(|output| output.id == id);
         listed.map_or(id.to_owned(), |output| output.name.clone())
@@ -115,15 +173,5 @@ fn masking_ui(ui: &mut Ui, page: &StudiesPage, session: &Session, noise: Masking
         asked = Some(Command::ListOutputs);
     }
     combo.response.accessible_name(strings::MASKING_OUTPUT).on_hover_text(strings::MASKING_HELP);
-    let is_same =
-        chosen.zip(session.output_id()).is_some_and(|(id, main)| id != NULL_ID && is_same_output(id, main));
-    let problem = match chosen {
-        None => Some(strings::MASKING_MISSING),
-        Some(_) if is_same => Some(strings::MASKING_SAME),
-        Some(_) => None,
-    };
-    if let Some(problem) = problem {
-        ui.add(Label::new(RichText::new(problem).small().color(t.warning)).wrap());
-    }
     asked
 }

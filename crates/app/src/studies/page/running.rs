@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use egui::{Context, ViewportCommand};
+use shagreen_device::output::NULL_ID;
 use shagreen_formats::project::Project;
 use shagreen_formats::settings::StudySettings;
 use shagreen_formats::study_log::ReadLog;
@@ -14,7 +15,7 @@ use shagreen_studio::study::session::{LogPlace, NewSession, StudySession};
 use super::StudiesPage;
 use crate::command::Command;
 use crate::command::studies::{SessionStart, StudiesCommand};
-use crate::session::MaskingOutput;
+use crate::session::{MaskingOutput, Session};
 use crate::state::source::Source;
 use crate::strings::studies as strings;
 use crate::studies::open_study;
@@ -56,6 +57,21 @@ impl StudiesPage {
         self.starting = None;
     }
 
+    /// Command that starts a session. A session in which a person would read the placeholder of a consent text waits until the
+    /// experimenter confirms it.
+    pub(super) fn confirmed(&mut self, start: SessionStart) -> Option<Command> {
+        let reads_consent = match &start {
+            SessionStart::Next => true,
+            SessionStart::Resume(log) => self.sessions.needs_consent(log),
+            SessionStart::Practice | SessionStart::Simulated(_) => false,
+        };
+        if reads_consent && self.has_placeholder_consent() {
+            self.unconfirmed = Some(start);
+            return None;
+        }
+        Some(Command::Studies(StudiesCommand::Start(start)))
+    }
+
     /// Begins to make the stimuli of a session. A plan without a file is saved first.
     pub(crate) fn start(&mut self, start: SessionStart, project: &Project, ctx: &Context) {
         if self.starting.is_some() || self.runner.is_some() {
@@ -83,8 +99,7 @@ impl StudiesPage {
         };
         if let SessionStart::Resume(path) = &start {
             let log = load_log(path).map_err(|error| one_line(&error))?;
-            let study = StudyPlan::read(log.header.plan_text().as_bytes());
-            return Ok((study.map_err(|error| error.to_string())?, Some(Box::new(log)), start));
+            return Ok((StudyPlan::of_log(&log), Some(Box::new(log)), start));
         }
         let open = self.open.as_mut().ok_or(strings::NO_PLAN)?;
         if open.path.is_none() && start != SessionStart::Practice {
@@ -143,6 +158,13 @@ impl StudiesPage {
         let noise = study.plan.masking_noise?;
         let id = self.settings.masking_output.clone()?;
         Some(MaskingOutput::open(id, noise, ctx))
+    }
+
+    /// Name of the output that plays the masking noise; `None` while none plays it.
+    pub(crate) fn masking_name(&self, session: &Session) -> Option<String> {
+        let masking = self.masking.as_ref().filter(|masking| masking.plays() && masking.id() != NULL_ID)?;
+        let listed = session.outputs().iter().find(|output| output.id == masking.id());
+        Some(listed.map_or(masking.id(), |output| output.name.as_str()).to_owned())
     }
 
     /// The session that runs over the whole window.

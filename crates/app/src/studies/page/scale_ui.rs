@@ -1,6 +1,7 @@
 //! Calibration of the screen with a bank card, so that lines have their true length.
 
 use egui::{Button, Label, Rect, RichText, Sense, Slider, Ui, vec2};
+use shagreen_core::people::study::setup::ScreenScale;
 use shagreen_formats::settings::PIXELS_PER_MM;
 
 use super::{Shown, StudiesPage};
@@ -53,6 +54,18 @@ pub(super) fn scale_ui(ui: &mut Ui, page: &mut StudiesPage) -> Option<Command> {
         }
     });
     asked
+}
+
+/// Scale of the screen for the log of a session.
+pub(crate) fn screen_scale(pixels_per_mm: Option<f32>, ctx: &egui::Context) -> ScreenScale {
+    // Digits beyond those of a measurement with a card would say nothing.
+    let rounded = |pixels: f32| (1e3 * f64::from(pixels)).round() / 1e3;
+    match pixels_per_mm {
+        Some(pixels) => ScreenScale::Measured { pixels_per_mm: rounded(pixels) },
+        None => {
+            ScreenScale::Assumed { pixels_per_mm: rounded(points_per_mm(None, ctx) * ctx.pixels_per_point()) }
+        }
+    }
 }
 
 /// Scale of the screen in points per millimeter: the measured one, or 96 dots per inch.

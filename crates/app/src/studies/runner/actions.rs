@@ -7,6 +7,8 @@ use super::draft::Entry;
 pub(super) enum Action {
     /// Agrees to the consent text, has read the instructions, or ends a break.
     GoOn,
+    /// Does not agree to the consent text.
+    Refuse,
     /// Starts a stimulus by its index, or stops it.
     Play(usize),
     /// Presents the stimuli that start by themselves again.

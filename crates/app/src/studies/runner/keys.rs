@@ -1,7 +1,8 @@
 //! Keys of the runner: every action without a pointer.
 //!
 //! Letters start the stimulus of this label, Space starts and stops the automatic stroke, digits and arrows enter values, Enter
-//! goes on, Escape asks whether to leave. Keys that a widget with the keyboard focus needs itself stay with it.
+//! goes on, Escape asks whether to leave. Keys that a widget with the keyboard focus needs itself stay with it. Enter agrees to
+//! the consent text only while the button for it has the keyboard focus.
 
 use egui::{Context, Id, Key, Memory, Modifiers};
 use shagreen_core::people::study::plan::Design;
@@ -77,10 +78,8 @@ impl Runner {
         }
         match &self.screen {
             Screen::Trial(state) => trial_keys(ctx, state, focus),
-            Screen::Consent | Screen::Instructions | Screen::PracticeOver | Screen::Break if is_entered() => {
-                vec![Action::GoOn]
-            }
-            Screen::Done if is_entered() => vec![Action::Leave],
+            Screen::Instructions | Screen::PracticeOver | Screen::Break if is_entered() => vec![Action::GoOn],
+            Screen::Done | Screen::Refused if is_entered() => vec![Action::Leave],
             _ => Vec::new(),
         }
     }
@@ -151,8 +150,8 @@ fn digit_actions(state: &TrialState, digit: u32) -> Vec<Action> {
         (Draft::Side(_), Task::Detect { .. } | Task::Match { .. }) if digit <= 2 => {
             enter(Entry::Side(Side::second_if(digit == 2)))
         }
-        (Draft::Grade(_), _) if digit <= n_points(&state.design) => enter(Entry::Grade(0, digit)),
-        (Draft::Grades(grades), _) if digit <= n_points(&state.design) => {
+        (Draft::Grade(_), _) if digit <= n_points(&state.part.design) => enter(Entry::Grade(0, digit)),
+        (Draft::Grades(grades), _) if digit <= n_points(&state.part.design) => {
             let next = (state.selected + 1).min(grades.len().saturating_sub(1));
             vec![Action::Enter(Entry::Grade(state.selected, digit)), Action::Select(next)]
         }

@@ -25,6 +25,11 @@ impl MotionMeter {
         }
     }
 
+    /// Distance that the tip moved in contact, in m.
+    pub(super) fn distance_m(self) -> f64 {
+        self.distance_m
+    }
+
     /// Distance, mean speed and mean force in contact; `None` without contact.
     pub(super) fn motion(&self) -> Option<Motion> {
         (self.contact_secs > 0.0).then(|| Motion {
@@ -56,6 +61,7 @@ mod tests {
             // After a long pause of the window, nobody knows what the hand did.
             meter.add(touch(9.0, 9.0), 5.0);
         }
+        assert!((meter.distance_m() - 0.5).abs() < 1e-9);
         let motion = meter.motion().unwrap();
         assert!((motion.distance_m - 0.5).abs() < 1e-9);
         assert!((motion.mean_speed_mps - 0.25).abs() < 1e-9);

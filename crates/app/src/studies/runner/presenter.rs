@@ -119,6 +119,12 @@ impl Presenter {
             && self.has_plays_left(stimulus)
     }
 
+    /// Whether the participant can move the tip over a stimulus: it plays or can be started, and the tip does not move by itself.
+    pub(super) fn can_be_felt(&self, stimulus: usize) -> bool {
+        let is_due = matches!(self.state, State::Waiting { .. }) || self.playing() == Some(stimulus);
+        !self.is_passive() && (is_due || self.has_plays_left(stimulus))
+    }
+
     /// How often a stimulus can still be started; `None` for any number of times.
     pub(super) fn n_plays_left(&self, stimulus: usize) -> Option<u32> {
         let n_played = self.n_plays.get(stimulus).copied().unwrap_or(0);
@@ -252,6 +258,27 @@ mod tests {
         assert_eq!(presenter.playing(), Some(0), "the other one has no plays left");
         assert_eq!((presenter.n_plays_left(0), presenter.n_plays_left(1)), (Some(0), Some(0)));
         assert_eq!(presenter.counts_from_secs(), 0.0);
+    }
+
+    #[test]
+    fn what_cannot_be_started_again_cannot_be_felt() {
+        let timing = Timing { stimulus_secs: Some(0.8), ..Timing::default() };
+        let mut free = Presenter::new(Presentation::Free, 2, timing, Some(1));
+        free.toggle(0, 0.0);
+        assert!(free.can_be_felt(0) && free.can_be_felt(1), "the first one plays");
+        free.follow(1.0);
+        assert!(!free.can_be_felt(0) && free.can_be_felt(1));
+        let mut alone = Presenter::new(Presentation::Alone, 1, TIMING, Some(1));
+        assert!(alone.can_be_felt(0), "it is about to start");
+        for now_secs in [0.5, 1.4] {
+            alone.follow(now_secs);
+        }
+        assert!(!alone.can_be_felt(0));
+        // In a succession, the tip moves by itself.
+        let succession = Presenter::new(Presentation::Succession, 2, TIMING, None);
+        assert!(!succession.can_be_felt(0));
+        let nothing = Presenter::new(Presentation::Free, 0, Timing::default(), None);
+        assert!(!nothing.can_be_felt(0));
     }
 
     #[test]

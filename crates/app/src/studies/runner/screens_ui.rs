@@ -10,7 +10,7 @@ use shagreen_core::people::study::plan::Part;
 use super::actions::{Action, Asked};
 use super::stimuli_ui::TARGET;
 use super::trial_ui::{Around, trial_ui};
-use super::{Runner, RunnerInput, Screen};
+use super::{Runner, RunnerInput, Screen, Unsaved};
 use crate::look::icons::close_button;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::state::mouse_report::MouseReport;
@@ -118,13 +118,15 @@ impl Runner {
                 strings::LEAVE_PRACTICE
             } else if self.unsaved.is_some() {
                 strings::LEAVE_UNSAVED
+            } else if self.session.counts().n_answered == 0 {
+                strings::LEAVE_BEFORE
             } else {
                 strings::LEAVE_SAVED
             };
             let buttons = vec![(strings::STAY, Action::Stay), (strings::LEAVE_NOW, Action::Leave)];
             return page(strings::LEAVE_TITLE, text, buttons);
         }
-        if let Some(reason) = &self.unsaved {
+        if let Some(Unsaved { reason, .. }) = &self.unsaved {
             let buttons =
                 vec![(strings::TRY_AGAIN, Action::TryAgain), (strings::LEAVE_PAGE, Action::AskToLeave)];
             return Page { is_problem: true, ..page(strings::NOT_SAVED_TITLE, reason, buttons) };
@@ -132,7 +134,7 @@ impl Runner {
         let go_on = |name| vec![(name, Action::GoOn)];
         match &self.screen {
             Screen::Consent => {
-                let buttons = vec![(strings::AGREE, Action::GoOn), (strings::DISAGREE, Action::AskToLeave)];
+                let buttons = vec![(strings::AGREE, Action::GoOn), (strings::DISAGREE, Action::Refuse)];
                 page(strings::CONSENT, self.session.plan().consent.trim(), buttons)
             }
             Screen::Instructions => {
@@ -152,6 +154,9 @@ impl Runner {
                 let text =
                     if self.session.is_practice() { strings::PRACTICE_DONE } else { strings::DONE_HELP };
                 page(strings::DONE, text, vec![(strings::CLOSE, Action::Leave)])
+            }
+            Screen::Refused => {
+                page(strings::REFUSED, strings::REFUSED_HELP, vec![(strings::CLOSE, Action::Leave)])
             }
             Screen::Broken(reason) => {
                 let buttons = vec![(strings::LEAVE_PAGE, Action::AskToLeave)];

@@ -1,5 +1,5 @@
 //! Simulated participant who answers the trials in the window, instead of a person. It does what a person does: it starts each
-//! stimulus, moves the tip, enters its values one by one and answers.
+//! stimulus, moves the tip over it until it is felt, enters its values one by one and answers.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -87,7 +87,16 @@ impl Simulated {
         if !is_stroking && !state.presenter.is_passive() {
             return Some(Action::ToggleStroke);
         }
-        if let Some(next) = state.presenter.not_started().first() {
+        let untouched = state.untouched();
+        let is_felt_now = |playing: usize| state.is_detection() || untouched.contains(&playing);
+        if state.presenter.playing().is_some_and(|playing| is_felt_now(playing) && !untouched.is_empty()) {
+            // The tip moves over it.
+            return None;
+        }
+        if let Some(next) = state.presenter.not_started().first().or(untouched.first()) {
+            if state.presenter.can_repeat() {
+                return Some(Action::Repeat);
+            }
             let can_start = state.presenter.can_start(*next, state.now_secs());
             return can_start.then_some(Action::Play(*next));
         }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::{Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
+use egui::{Label, Rect, RichText, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo};
 use shagreen_core::people::study::plan::ShownControls;
 use shagreen_core::units::Radians;
 
@@ -33,6 +33,7 @@ pub(super) fn stage_ui(
     state: &TrialState,
 ) -> Option<MouseReport> {
     let t = tokens(ui.ctx());
+    ui.add(Label::new(RichText::new(label(state)).color(t.text_weak)).wrap().selectable(false));
     let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, strings::SURFACE));
     match picture(ui, stage, state) {
@@ -51,6 +52,22 @@ pub(super) fn stage_ui(
     let mouse = stroke_report(ui, area, &response, stage.pressure);
     response.on_hover_cursor(CURSOR);
     mouse
+}
+
+/// What the participant does on the surface.
+fn label(state: &TrialState) -> String {
+    if let Some(text) = &state.text {
+        let is_made = text.authored().is_some();
+        return if is_made { strings::MOVE_HERE } else { strings::MOVE_LATER }.to_owned();
+    }
+    let playing = state.presenter.playing().and_then(|index| state.shown.get(index));
+    match playing.filter(|shown| !shown.label.is_empty()) {
+        _ if state.presenter.is_passive() => strings::STROKED.to_owned(),
+        Some(shown) => strings::move_here_to_feel(&shown.label),
+        None if state.is_detection() => strings::MOVE_BOTH.to_owned(),
+        None if state.shown.len() > 1 => strings::SELECT_FIRST.to_owned(),
+        None => strings::MOVE_HERE.to_owned(),
+    }
 }
 
 /// Picture of the texture of a question, where the condition shows it.

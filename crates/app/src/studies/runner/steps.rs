@@ -12,7 +12,7 @@ use shagreen_studio::study::session::SessionError;
 use super::actions::Action;
 use super::text_texture::TextTexture;
 use super::trial_state::TrialState;
-use super::{Runner, RunnerInput, Screen};
+use super::{Runner, RunnerInput, Screen, Unsaved};
 
 /// Time for which the participant sees whether an answer was right, in s.
 const FEEDBACK_SECS: f64 = 1.2;
@@ -26,12 +26,15 @@ impl Runner {
             Action::Leave => self.has_left = true,
             // Below a question, nothing changes.
             _ if self.is_asked_to_leave => {}
-            Action::TryAgain => {
-                let retried = self.session.retry();
-                self.take(retried);
-            }
+            Action::TryAgain => self.try_again(),
             _ if self.unsaved.is_some() => {}
             Action::GoOn => self.end_screen(),
+            Action::Refuse => {
+                if matches!(self.screen, Screen::Consent) {
+                    let refused = self.session.refuse();
+                    self.take(refused.map(|()| None));
+                }
+            }
             Action::ToggleStroke => self.is_stroking ^= true,
             Action::Answer => self.answer(input),
             other => self.carry_out_in_trial(other, input, ctx),
@@ -68,6 +71,7 @@ impl Runner {
                 }
             }
             Action::GoOn
+            | Action::Refuse
             | Action::ToggleStroke
             | Action::Answer
             | Action::TryAgain
@@ -96,8 +100,17 @@ impl Runner {
                 self.read = self.session.next_part().map(|part| (part.id.clone(), true));
                 self.go_on();
             }
-            Screen::Trial(_) | Screen::Pause { .. } | Screen::Done | Screen::Broken(_) => {}
+            Screen::Trial(_) | Screen::Pause { .. } | Screen::Done | Screen::Refused | Screen::Broken(_) => {}
         }
+    }
+
+    /// Saves once more what could not be saved.
+    fn try_again(&mut self) {
+        let retried = self.session.retry();
+        if retried.is_ok() && self.unsaved.take_if(|unsaved| unsaved.is_setup).is_some() {
+            return;
+        }
+        self.take(retried);
     }
 
     /// Answers the trial on the screen, if everything is entered.
@@ -116,7 +129,8 @@ impl Runner {
                 self.pause(is_right);
             }
             Err(error @ (SessionError::Log(_) | SessionError::Unsaved)) => {
-                self.unsaved = Some(error.to_string());
+                let is_setup = self.unsaved.as_ref().is_some_and(|unsaved| unsaved.is_setup);
+                self.unsaved = Some(Unsaved { reason: error.to_string(), is_setup });
             }
             Err(error) => self.problem = Some(error.to_string()),
         }
@@ -141,9 +155,10 @@ impl Runner {
         self.screen = match self.session.step() {
             Step::Consent => Screen::Consent,
             Step::Break => Screen::Break,
+            Step::Done if self.session.has_refused() => Screen::Refused,
             Step::Done => {
                 if let Err(error) = self.session.end() {
-                    self.unsaved = Some(error.to_string());
+                    self.unsaved = Some(Unsaved { reason: error.to_string(), is_setup: false });
                 }
                 Screen::Done
             }
@@ -193,7 +208,7 @@ impl Runner {
         let Screen::Trial(state) = &self.screen else { return };
         let Some(texture) = &state.text else { return };
         let key = text_key(&state.trial);
-        let is_own = matches!(&state.design, Design::Likert { prompts: PromptsOfPlan::Own(_), .. });
+        let is_own = matches!(&state.part.design, Design::Likert { prompts: PromptsOfPlan::Own(_), .. });
         let is_known = !is_own || key.is_some_and(|key| self.texts.contains_key(&key));
         if is_known && texture.is_writing() && texture.failure().is_none() {
             self.describe(input, ctx);

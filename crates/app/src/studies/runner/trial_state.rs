@@ -4,7 +4,8 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use shagreen_core::people::study::answer::{Measured, Response};
-use shagreen_core::people::study::plan::{Design, Part};
+use shagreen_core::people::study::plan::Part;
+use shagreen_core::people::study::touch::{Felt, is_passive, n_touched, untouched};
 use shagreen_core::people::study::trial::{Shown, Task, Trial};
 use shagreen_device::touch::Touch;
 
@@ -18,7 +19,7 @@ use crate::session::{PresentedTexture, Session};
 /// A trial while it is on the screen.
 pub(super) struct TrialState {
     pub(super) trial: Trial,
-    pub(super) design: Design,
+    pub(super) part: Part,
     /// Stimuli with their blind labels.
     pub(super) shown: Vec<Shown>,
     pub(super) presenter: Presenter,
@@ -29,6 +30,8 @@ pub(super) struct TrialState {
     pub(super) selected: usize,
     stimuli: TrialStimuli,
     motion: MotionMeter,
+    /// Movement over each stimulus, over each side of a detection, or over the texture of a question, while it could be felt.
+    over: Vec<MotionMeter>,
     /// First and last frame.
     frames: Option<(Instant, Instant)>,
 }
@@ -37,9 +40,8 @@ impl TrialState {
     /// State before the first frame of a trial of this part.
     pub(super) fn new(trial: Trial, part: &Part, stimuli: TrialStimuli, text: Option<TextTexture>) -> Self {
         let shown = trial.task.shown();
-        let is_timed = part.timing.stimulus_secs.is_some();
         let presentation = match &trial.task {
-            Task::Discriminate { .. } if is_timed => Presentation::Succession,
+            _ if is_passive(part) => Presentation::Succession,
             Task::Detect { .. } => Presentation::Alone,
             _ if shown.len() == 1 => Presentation::Alone,
             _ => Presentation::Free,
@@ -49,12 +51,13 @@ impl TrialState {
         Self {
             presenter: Presenter::new(presentation, n_stimuli, part.timing, part.max_plays),
             draft: Draft::new(&trial.task, &part.design),
-            design: part.design.clone(),
+            part: part.clone(),
             shown,
             text,
             selected: 0,
             stimuli,
             motion: MotionMeter::default(),
+            over: vec![MotionMeter::default(); n_touched(&trial.task)],
             frames: None,
             trial,
         }
@@ -63,9 +66,14 @@ impl TrialState {
     /// Follows the time and the tip, once a frame.
     pub(super) fn follow(&mut self, touch: Touch, now: Instant) {
         let (first, last) = *self.frames.get_or_insert((now, now));
-        self.motion.add(touch, now.duration_since(last).as_secs_f64());
+        let secs = now.duration_since(last).as_secs_f64();
+        self.motion.add(touch, secs);
         self.frames = Some((first, now));
         self.presenter.follow(now.duration_since(first).as_secs_f64());
+        let felt = self.felt_at(touch);
+        if let Some(over) = felt.and_then(|index| self.over.get_mut(index)) {
+            over.add(touch, secs);
+        }
     }
 
     /// Time since the first frame, in s.
@@ -80,10 +88,30 @@ impl TrialState {
 
     /// Stimulus that is audible at this place of the tip.
     pub(super) fn audible(&self, touch: Touch) -> Option<&Arc<PresentedTexture>> {
+        self.stimuli.textures.get(self.felt_at(touch)?)
+    }
+
+    /// Index of what the tip would feel at this place: a stimulus, a side of a detection, or the texture of a question.
+    fn felt_at(&self, touch: Touch) -> Option<usize> {
+        if let Some(text) = &self.text {
+            return text.authored().map(|_| 0);
+        }
         let playing = self.presenter.audible(self.now_secs())?;
         // The left half of the surface is the first side.
-        let index = if self.is_detection() { usize::from(touch.x_m >= 0.0) } else { playing };
-        self.stimuli.textures.get(index)
+        Some(if self.is_detection() { usize::from(touch.x_m >= 0.0) } else { playing })
+    }
+
+    /// Indices of what the participant still has to touch before the answer, in the order of the screen.
+    pub(super) fn untouched(&self) -> Vec<usize> {
+        let can_be_felt = |index: usize| match &self.text {
+            Some(text) => text.authored().is_some(),
+            None => self.presenter.can_be_felt(if self.is_detection() { 0 } else { index }),
+        };
+        let over = self.over.iter().enumerate();
+        let felt: Vec<Felt> = over
+            .map(|(index, over)| Felt { distance_m: over.distance_m(), can_be_felt: can_be_felt(index) })
+            .collect();
+        untouched(&self.part, &felt)
     }
 
     /// Whether the two sides of the surface differ.
@@ -98,10 +126,10 @@ impl TrialState {
         }
     }
 
-    /// Whether the participant can answer: everything was presented, and the texture of a question is made.
+    /// Whether the participant can answer: everything was presented and touched, and the texture of a question is made.
     pub(super) fn can_answer(&self) -> bool {
         let has_texture = self.text.as_ref().is_none_or(|text| text.authored().is_some());
-        has_texture && self.presenter.has_presented_all()
+        has_texture && self.presenter.has_presented_all() && self.untouched().is_empty()
     }
 
     /// The response, once all values are entered and the participant can answer.
@@ -118,6 +146,7 @@ impl TrialState {
         Measured {
             response_secs: Some(response_secs.max(0.0)),
             motion: self.motion.motion(),
+            touched_m: self.over.iter().map(|over| over.distance_m()).collect(),
             latency_secs: latency.map(|latency| f64::from(latency.stroke_secs)),
             device: session.rig().actuator().map_or_else(String::new, |actuator| actuator.id.clone()),
             stimulus_hashes: self.stimuli.hashes.clone(),

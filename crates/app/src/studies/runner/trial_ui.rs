@@ -5,6 +5,7 @@ use egui::{
 };
 use shagreen_core::people::study::plan::Design;
 use shagreen_core::people::study::trial::Task;
+use shagreen_device::status::LinkState;
 
 use super::RunnerInput;
 use super::actions::{Action, Asked};
@@ -76,7 +77,7 @@ pub(super) fn trial_ui(
         });
     });
     Side::bottom("foot of a trial").exact_size(FOOT).frame(bar).show(ui, |ui| {
-        asked.merge(foot_ui(ui, state, around));
+        asked.merge(foot_ui(ui, input, state, around));
     });
     (asked, mouse)
 }
@@ -88,7 +89,7 @@ pub(crate) fn longest_line(window_width: f32) -> f32 {
 
 /// Width of the left column, in points: lines of a true length are as long as they are.
 fn left_width(input: &RunnerInput<'_>, state: &TrialState, width: f32) -> f32 {
-    let needed = match &state.design {
+    let needed = match &state.part.design {
         Design::Rating { slider_mm, .. } => *slider_mm as f32 * input.points_per_mm + BESIDE_LINE,
         Design::Mushra { .. } | Design::Anchors { .. } => USUAL_MM * input.points_per_mm + BESIDE_ROW,
         _ => 0.0,
@@ -116,7 +117,7 @@ fn answer_ui(ui: &mut Ui, input: &RunnerInput<'_>, state: &TrialState, instructi
 }
 
 /// Draws the button of the automatic stroke, what is missing, and the button that answers.
-fn foot_ui(ui: &mut Ui, state: &TrialState, around: Around<'_>) -> Asked {
+fn foot_ui(ui: &mut Ui, input: &RunnerInput<'_>, state: &TrialState, around: Around<'_>) -> Asked {
     let t = tokens(ui.ctx());
     let mut asked = Asked::default();
     ui.horizontal_centered(|ui| {
@@ -135,7 +136,7 @@ fn foot_ui(ui: &mut Ui, state: &TrialState, around: Around<'_>) -> Asked {
             ui.set_min_size(size);
             let (text, color) = match around.problem {
                 Some(problem) => (problem.to_owned(), t.error),
-                None => (missing(state), t.text_weak),
+                None => (missing(input, state), t.text_weak),
             };
             ui.add(Label::new(RichText::new(text).color(color)).wrap());
         });
@@ -154,16 +155,27 @@ fn foot_ui(ui: &mut Ui, state: &TrialState, around: Around<'_>) -> Asked {
 }
 
 /// What the participant has to do before the answer; empty if nothing is missing.
-fn missing(state: &TrialState) -> String {
+fn missing(input: &RunnerInput<'_>, state: &TrialState) -> String {
+    let labels = |indices: Vec<usize>| -> Vec<&str> {
+        let shown = indices.into_iter().filter_map(|index| state.shown.get(index));
+        shown.map(|shown| shown.label.as_str()).filter(|label| !label.is_empty()).collect()
+    };
+    let untouched = state.untouched();
+    if !untouched.is_empty() {
+        // Without an output, nobody knows where the tip is.
+        let is_closed = input.session.status().is_none_or(|status| status.state == LinkState::Lost);
+        return if is_closed {
+            strings::NOTHING_FELT.to_owned()
+        } else if state.is_detection() {
+            strings::TOUCH_BOTH.to_owned()
+        } else {
+            strings::touch_first(&labels(untouched))
+        };
+    }
     let not_started = state.presenter.not_started();
     let is_free = !state.presenter.is_timed(state.now_secs());
     if !not_started.is_empty() && is_free {
-        let labels: Vec<&str> = not_started
-            .into_iter()
-            .filter_map(|index| state.shown.get(index))
-            .map(|shown| shown.label.as_str())
-            .collect();
-        return strings::feel_first(&labels);
+        return strings::feel_first(&labels(not_started));
     }
     if !state.can_answer() {
         return String::new();

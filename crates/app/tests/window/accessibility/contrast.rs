@@ -14,6 +14,8 @@ const LEAST: f64 = 4.5;
 const LEAST_OF_LARGE: f64 = 3.0;
 /// Size from which a text is large, in points (18 pt in print).
 const LARGE: f32 = 24.0;
+/// Opacity from which a surface hides what lies below it, 0 to 255: the backing of names on pictures.
+const HIDING: u8 = 225;
 
 /// Relative luminance.
 fn luminance(color: Color32) -> f64 {
@@ -47,7 +49,7 @@ pub(super) fn illegible<State>(harness: &Harness<'_, State>) -> Vec<String> {
     let disabled: Vec<Rect> = disabled.map(|node| node.rect().expand(1.0)).collect();
     let (mut surfaces, mut found) = (Vec::<Surface>::new(), Vec::new());
     for Painted { shape, clip } in painted(harness) {
-        if let Shape::Text(text) = &shape {
+        if let Shape::Text(text) = shape {
             for row in rows(text) {
                 let is_read = clip.contains(row.center())
                     && text.opacity_factor > 0.0
@@ -56,7 +58,7 @@ pub(super) fn illegible<State>(harness: &Harness<'_, State>) -> Vec<String> {
                     found.extend(faint_parts(text, below, row));
                 }
             }
-        } else if let Some(surface) = surface_of(&shape, clip) {
+        } else if let Some(surface) = surface_of(shape, clip) {
             surfaces.push(surface);
         }
     }
@@ -89,6 +91,7 @@ fn background(surfaces: &[Surface], at: Pos2) -> Option<Color32> {
     let below = surfaces.iter().filter(|surface| surface.area.contains(at));
     below.fold(None, |below, surface| match surface.color? {
         color if color.is_opaque() => Some(color),
+        color if below.is_none() && color.a() >= HIDING => Some(color.to_opaque()),
         color => below.map(|below: Color32| below.blend(color)),
     })
 }

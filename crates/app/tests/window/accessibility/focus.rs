@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use egui::accesskit::{Action, NodeId, Role};
-use egui::{Color32, Key, Rect, Shape};
+use egui::{Color32, Event, Key, Modifiers, Rect, Shape};
 use egui_kittest::Harness;
 use egui_kittest::kittest::NodeT as _;
 
@@ -107,8 +107,7 @@ pub(super) fn tab_through<State>(harness: &mut Harness<'_, State>) -> Walk {
     let mut outlined = Vec::new();
     let mut last: Option<(Stop, BTreeMap<[u8; 4], usize>)> = None;
     for _ in 0..MOST {
-        harness.key_press(Key::Tab);
-        harness.run_steps(2);
+        press_tab(harness);
         if let Some((stop, with_focus)) = last.take() {
             marked.push(is_marked(harness, &stop, &with_focus));
         }
@@ -136,6 +135,19 @@ pub(super) fn tab_through<State>(harness: &mut Harness<'_, State>) -> Walk {
     Walk { stops, marked }
 }
 
+/// Presses and releases the Tab key within one frame, and shows another one: every frame of every stop takes time.
+fn press_tab<State>(harness: &mut Harness<'_, State>) {
+    let event = |pressed| Event::Key {
+        key: Key::Tab,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    harness.input_mut().events.extend([event(true), event(false)]);
+    harness.run_steps(2);
+}
+
 /// Whether a color with enough contrast was painted more often at a widget while it had the focus. `harness` shows the
 /// frame after that. A widget that has scrolled away since counts as marked, because its frames cannot be compared.
 fn is_marked<State>(
@@ -159,7 +171,7 @@ fn is_marked<State>(
 /// Whether an outline with enough contrast encloses an area closely.
 fn is_outlined<State>(harness: &Harness<'_, State>, area: Rect) -> bool {
     let panel = harness.ctx.global_style().visuals.panel_fill;
-    painted(harness).iter().any(|painted| match &painted.shape {
+    painted(harness).iter().any(|painted| match painted.shape {
         Shape::Rect(rect) => {
             let is_close = rect.rect.contains_rect(area) && area.expand(MARK_MARGIN).contains_rect(rect.rect);
             is_close && rect.stroke.width > 0.0 && contrast(rect.stroke.color, panel) >= LEAST_CONTRAST
@@ -176,7 +188,7 @@ fn colors_at<State>(harness: &Harness<'_, State>, area: Rect) -> BTreeMap<[u8; 4
         if !around.contains_rect(painted.shape.visual_bounding_rect()) {
             continue;
         }
-        let colors = match &painted.shape {
+        let colors = match painted.shape {
             Shape::Rect(rect) => {
                 vec![(rect.stroke.width > 0.0).then_some(rect.stroke.color), Some(rect.fill)]
             }

@@ -171,7 +171,7 @@ fn texts<State>(harness: &Harness<'_, State>) -> (Vec<Text>, Vec<Cover>) {
         match painted.shape {
             Shape::Text(text) if text.opacity_factor > 0.0 => {
                 let words = text.galley.text().to_owned();
-                let rows = rows(&text);
+                let rows = rows(text);
                 let repeats = |other: &Text| {
                     let (Some(a), Some(b)) = (rows.first(), other.rows.first()) else { return false };
                     other.words == words && a.min.distance(b.min) < LEAST_OVERLAP

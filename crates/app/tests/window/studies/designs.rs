@@ -6,10 +6,12 @@ use egui::accesskit::Role;
 use egui::vec2;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use shagreen_app::strings::studies;
+use shagreen_app::studies::page::SessionState;
 use shagreen_core::people::study::answer::{Answer, Event, Response};
 use shagreen_core::people::study::plan::Design;
 use shagreen_core::people::study::progress::Step;
 use shagreen_core::people::study::simulated::{Observers, World, simulated_session};
+use shagreen_core::people::study::touch::n_touched;
 use shagreen_core::people::study::trial::Side;
 use shagreen_studio::study::logs::{load_log, usual_log_folder};
 use shagreen_studio::study::plans::load_plan;
@@ -18,7 +20,7 @@ use super::plans::{
     ABX, ANCHORS, DISSIMILARITY, HIDDEN, LIKERT, MUSHRA, RATING, RELEVANCE, SAME_DIFFERENT, SIMILARITY,
     SORTING, STAIRCASE,
 };
-use super::{go_to_trial, leave, open, plan_file, session, start};
+use super::{feel_all, go_to_trial, has_to_feel, leave, open, plan_file, session, start};
 use crate::support::{Author, author, click, drag, says, shown, unnamed_controls, wait, window, write_into};
 
 /// Smallest side of what a finger touches, in points; positions are rounded to pixels.
@@ -36,19 +38,6 @@ pub(super) fn answers(path: &Path) -> Vec<Answer> {
 fn press(harness: &mut Author, name: &str) {
     harness.get_by_label(name).click_accesskit();
     harness.run_steps(2);
-}
-
-/// Starts every stimulus that does not start by itself.
-fn feel_all(harness: &mut Author) {
-    let Step::Trial(trial) = session(harness).step() else { panic!("a trial") };
-    let shown = trial.task.shown();
-    let has_buttons = shown.len() > 1
-        && shown.iter().all(|shown| harness.query_by_label(&studies::play(&shown.label)).is_some());
-    if has_buttons {
-        for shown in shown {
-            click(harness, &studies::play(&shown.label));
-        }
-    }
 }
 
 /// Gives an answer to the trial on the screen by clicks.
@@ -112,6 +101,8 @@ pub(super) fn give(harness: &mut Author, answer: &Answer) {
         }
         other => panic!("{other:?}"),
     }
+    // The texture of a question can be felt only now.
+    wait(harness, "all is felt", |h| !has_to_feel(h));
     if harness.query_by_label(studies::NEXT).is_some() && session(harness).counts().n_answered == n_before {
         click(harness, studies::NEXT);
     }
@@ -160,7 +151,10 @@ fn run(parts: &str) {
     assert!(!go_to_trial(&mut harness), "all trials are answered");
     leave(&mut harness);
     let sessions = window(&harness).studies().sessions();
-    assert!(sessions.len() == 1 && sessions[0].is_done && !sessions[0].is_simulated, "{sessions:?}");
+    assert!(
+        sessions.len() == 1 && sessions[0].state == SessionState::Done && !sessions[0].is_simulated,
+        "{sessions:?}"
+    );
     check_log(&usual_log_folder(&path).join("p01.jsonl"), &wanted);
 }
 
@@ -178,6 +172,7 @@ fn check_log(path: &Path, wanted: &[Answer]) {
         assert_eq!(measured.stimulus_hashes.len(), measured.n_plays.len());
         assert!(measured.n_plays.iter().all(|n| *n >= 1), "{measured:?}");
         assert!(measured.stimulus_hashes.iter().all(|hash| hash.len() == 64));
+        assert_eq!(measured.touched_m.len(), n_touched(&given.trial.task));
     }
 }
 
@@ -254,7 +249,7 @@ fn a_killed_session_goes_on_at_its_trial() {
     let mut harness = author();
     open(&mut harness, &path);
     let sessions = window(&harness).studies().sessions().to_vec();
-    assert!(sessions.len() == 1 && sessions[0].can_resume && sessions[0].n_answers == 2, "{sessions:?}");
+    assert!(sessions.len() == 1 && sessions[0].can_resume() && sessions[0].n_answers == 2, "{sessions:?}");
     start(&mut harness, &studies::resume("p01"));
     assert!(!says(&harness, studies::CONSENT), "consent was given");
     for answer in &wanted[2..] {

@@ -8,7 +8,7 @@ use shagreen_studio::study::logs::{load_log, usual_log_folder};
 
 use super::designs::{answers, give};
 use super::plans::SIMILARITY;
-use super::{go_to_trial, open, plan_file, session, start};
+use super::{feel_all, go_to_trial, open, plan_file, session, start};
 use crate::support::{author, click, says, wait, window};
 
 /// Another program writes to the log: the window says so, keeps the answer, and goes on after a resume. Nothing is lost.
@@ -25,9 +25,7 @@ fn an_answer_that_is_not_saved_is_said_and_never_dropped_silently() {
     give(&mut harness, &wanted[0]);
     assert!(go_to_trial(&mut harness));
     std::fs::OpenOptions::new().append(true).open(&log).unwrap().write_all(b"not ours\n").unwrap();
-    for label in ["A", "B"] {
-        click(&mut harness, &studies::play(label));
-    }
+    feel_all(&mut harness);
     harness.get_by_label(&studies::grade(studies::GRADE, 2)).click_accesskit();
     harness.run_steps(2);
     click(&mut harness, studies::NEXT);

@@ -11,7 +11,7 @@ use shagreen_core::people::study::progress::Step;
 use shagreen_studio::study::logs::{load_log, usual_log_folder};
 
 use super::plans::{DISSIMILARITY, RATING, RELEVANCE, SIMILARITY, SORTING};
-use super::{open, plan_file, session, start};
+use super::{has_to_feel, open, plan_file, session, start, wait_until_felt};
 use crate::support::{Author, author, says, wait, window};
 
 fn keys(harness: &mut Author, keys: &[Key]) {
@@ -20,6 +20,31 @@ fn keys(harness: &mut Author, keys: &[Key]) {
         // A widget that takes the keyboard focus keeps its arrow keys some frames later.
         harness.run_steps(4);
     }
+}
+
+/// Agrees to the consent text and begins the first part by keys. Enter alone does not agree: the button needs the focus.
+fn agree_and_begin(harness: &mut Author) {
+    keys(harness, &[Key::Enter]);
+    for _ in 0..10 {
+        assert_eq!(session(harness).step(), Step::Consent);
+        if harness.get_by_label(studies::AGREE).is_focused() {
+            break;
+        }
+        keys(harness, &[Key::Tab]);
+    }
+    keys(harness, &[Key::Enter, Key::Enter]);
+    assert!(matches!(session(harness).step(), Step::Trial(_)));
+}
+
+/// Starts a stimulus by a key and waits until the automatic stroke has moved over it.
+fn feel(harness: &mut Author, key: Key, label: &str) {
+    keys(harness, &[key]);
+    wait_until_felt(harness, label);
+}
+
+/// Waits until the automatic stroke has moved over the only stimulus.
+fn feel_it(harness: &mut Author) {
+    wait(harness, "it is felt", |h| !has_to_feel(h));
 }
 
 /// Types a number, without the key events that a keyboard sends beside the text.
@@ -44,34 +69,52 @@ fn a_session_needs_no_pointer() {
     let mut harness = author();
     open(&mut harness, &path);
     start(&mut harness, studies::START);
-    // Consent and instructions.
-    keys(&mut harness, &[Key::Enter, Key::Enter]);
+    agree_and_begin(&mut harness);
     // Five textures: each is felt by its letter, and the last three go into the second group.
-    keys(&mut harness, &[Key::A, Key::Num1, Key::B, Key::Num1]);
-    keys(&mut harness, &[Key::ArrowRight, Key::Num2, Key::ArrowRight, Key::Num1, Key::Num0, Key::Num2]);
+    keys(&mut harness, &[Key::Space]);
+    for (key, label, groups) in [
+        (Key::A, "A", &[Key::Num1][..]),
+        (Key::B, "B", &[Key::Num1]),
+        (Key::ArrowRight, "C", &[Key::Num2]),
+        (Key::ArrowRight, "D", &[Key::Num1, Key::Num0, Key::Num2]),
+    ] {
+        feel(&mut harness, key, label);
+        keys(&mut harness, groups);
+    }
     keys(&mut harness, &[Key::Enter]);
     assert_eq!(session(&harness).counts().n_answered, 0, "one texture has no group");
-    keys(&mut harness, &[Key::E, Key::Num2, Key::Enter]);
+    feel(&mut harness, Key::E, "E");
+    keys(&mut harness, &[Key::Num2, Key::Enter]);
     answered(&mut harness, 1);
     // Adjectives: the first one has the keyboard focus.
-    keys(&mut harness, &[Key::Enter, Key::Space, Key::Enter]);
+    keys(&mut harness, &[Key::Enter, Key::Space]);
+    feel_it(&mut harness);
+    keys(&mut harness, &[Key::Enter]);
     answered(&mut harness, 2);
+    feel_it(&mut harness);
     keys(&mut harness, &[Key::Enter]);
     answered(&mut harness, 3);
     // Two ratings of two textures: the first key places the mark in the middle.
     keys(&mut harness, &[Key::Enter]);
     for n in [4, 5] {
-        keys(&mut harness, &[Key::ArrowRight, Key::ArrowRight, Key::Tab, Key::End, Key::Enter]);
+        keys(&mut harness, &[Key::ArrowRight, Key::ArrowRight, Key::Tab, Key::End]);
+        feel_it(&mut harness);
+        keys(&mut harness, &[Key::Enter]);
         answered(&mut harness, n);
     }
     // A difference.
-    keys(&mut harness, &[Key::Enter, Key::A, Key::B]);
+    keys(&mut harness, &[Key::Enter]);
+    feel(&mut harness, Key::A, "A");
+    feel(&mut harness, Key::B, "B");
     type_number(&mut harness, "2");
     type_number(&mut harness, ",5");
     keys(&mut harness, &[Key::Enter]);
     answered(&mut harness, 6);
     // A grade.
-    keys(&mut harness, &[Key::Enter, Key::A, Key::B, Key::Num4, Key::Enter]);
+    keys(&mut harness, &[Key::Enter]);
+    feel(&mut harness, Key::A, "A");
+    feel(&mut harness, Key::B, "B");
+    keys(&mut harness, &[Key::Num4, Key::Enter]);
     answered(&mut harness, 7);
     assert_eq!(session(&harness).step(), Step::Done);
     keys(&mut harness, &[Key::Enter]);
@@ -98,18 +141,23 @@ fn escape_asks_before_it_leaves() {
     let mut harness = author();
     open(&mut harness, &plan_file(folder.path(), SIMILARITY));
     start(&mut harness, studies::START);
-    keys(&mut harness, &[Key::Enter, Key::Enter, Key::A, Key::B, Key::Num3, Key::Escape]);
-    assert!(says(&harness, studies::LEAVE_TITLE) && says(&harness, studies::LEAVE_SAVED));
+    agree_and_begin(&mut harness);
+    keys(&mut harness, &[Key::Space]);
+    feel(&mut harness, Key::A, "A");
+    feel(&mut harness, Key::B, "B");
+    keys(&mut harness, &[Key::Num3, Key::Escape]);
+    assert!(says(&harness, studies::LEAVE_TITLE) && says(&harness, studies::LEAVE_BEFORE));
     keys(&mut harness, &[Key::Num5, Key::Escape, Key::Enter]);
     // What was entered before is still there.
     answered(&mut harness, 1);
     assert!(!says(&harness, studies::LEAVE_TITLE));
     keys(&mut harness, &[Key::Escape]);
+    assert!(says(&harness, studies::LEAVE_SAVED));
     harness.get_by_label(studies::LEAVE_NOW).click();
     harness.run_steps(2);
     assert!(window(&harness).studies().running().is_none());
     wait(&mut harness, "the sessions are listed", |h| !window(h).studies().is_busy());
-    assert!(window(&harness).studies().sessions()[0].can_resume);
+    assert!(window(&harness).studies().sessions()[0].can_resume());
 }
 
 /// A letter starts a stimulus, and so does a button; the automatic stroke makes it audible.
@@ -119,7 +167,8 @@ fn a_stimulus_is_audible_only_while_it_is_selected() {
     let mut harness = author();
     open(&mut harness, &plan_file(folder.path(), SIMILARITY));
     start(&mut harness, studies::START);
-    keys(&mut harness, &[Key::Enter, Key::Enter, Key::Space]);
+    agree_and_begin(&mut harness);
+    keys(&mut harness, &[Key::Space]);
     wait(&mut harness, "the stroke runs", |h| window(h).session().touch().contact.force_n > 0.0);
     // The texture of the project may fade out for a moment.
     wait(&mut harness, "nothing is selected", |h| window(h).session().scope().rms(0.2) < 1e-6);

@@ -35,6 +35,9 @@ kbps = 1.75
 
 "#;
 
+/// Distance in mm that the tip must move over each stimulus.
+pub(crate) const TOUCH_MM: f64 = 2.0;
+
 /// Names of the textures, which participants must not see.
 pub(crate) const HIDDEN: [&str; 5] = ["cork", "felt", "brick", "glass", "denim"];
 
@@ -164,7 +167,11 @@ pub(crate) const RUN: [(&str, &str); 9] = [
     ("anchors", ANCHORS),
 ];
 
-/// Text of a plan with these parts.
+/// Text of a plan with these parts. A short movement over each stimulus suffices, because it takes real time.
 pub(crate) fn plan_text(parts: &str) -> String {
+    if parts.contains("require_touch") {
+        return format!("{HEAD}{parts}");
+    }
+    let parts = parts.replace("design = \"", &format!("touch_mm = {TOUCH_MM}\ndesign = \""));
     format!("{HEAD}{parts}")
 }

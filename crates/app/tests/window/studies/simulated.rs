@@ -8,14 +8,15 @@ use shagreen_core::people::panel::simulated_name;
 use shagreen_core::people::study::answer::{Event, Response};
 use shagreen_core::people::study::progress::Step;
 use shagreen_core::people::study::simulated::{Observers, simulated_session};
+use shagreen_core::people::study::trial::Task;
 use shagreen_formats::study_log::ReadLog;
 use shagreen_studio::project::new_project;
-use shagreen_studio::study::logs::{load_log, log_path, usual_log_folder};
+use shagreen_studio::study::logs::{load_log, log_path, usual_simulated_log_folder};
 use shagreen_studio::study::plans::load_plan;
 use shagreen_studio::study::simulation::Simulation;
 
-use super::plans::{ABX, LIKERT, RATING, SAME_DIFFERENT, SORTING, STAIRCASE};
-use super::{plan_file, session};
+use super::plans::{ABX, LIKERT, RATING, SAME_DIFFERENT, SORTING, STAIRCASE, TOUCH_MM};
+use super::{leave, open, plan_file, session};
 use crate::support::{Author, author_of, begin, says, wait, window};
 
 const SEED: u64 = 7;
@@ -52,7 +53,7 @@ fn a_simulated_session_is_killed_and_goes_on_as_if_nothing_had_happened() {
     wait(&mut harness, "some trials are answered", |h| session(h).counts().n_answered >= 4);
     assert!(says(&harness, studies::SIMULATED));
     drop(harness);
-    let log = log_path(&usual_log_folder(&path), &simulated_name(1));
+    let log = log_path(&usual_simulated_log_folder(&path), &simulated_name(1));
     assert!(load_log(&log).unwrap().record().answers.len() >= 4);
 
     let mut harness = simulating(&path);
@@ -64,10 +65,13 @@ fn a_simulated_session_is_killed_and_goes_on_as_if_nothing_had_happened() {
     let log = load_log(&log).unwrap();
     assert!(log.header.is_simulated() && log.header.seed() == SEED && log.problems.is_empty());
     assert_eq!(responses(&log), expected(&path));
-    let answers = log.record().answers;
-    assert!(
-        answers.iter().any(|answer| answer.measured.motion.is_some_and(|motion| motion.distance_m > 0.0))
-    );
+    // It has moved over each texture, except in a succession, in which the tip moves by itself.
+    for answer in log.record().answers {
+        let touched_m = answer.measured.touched_m;
+        let is_passive = matches!(answer.trial.task, Task::Discriminate { .. });
+        assert!(is_passive || touched_m.iter().all(|m| *m >= 1e-3 * TOUCH_MM), "{touched_m:?}");
+        assert!(is_passive || answer.measured.motion.is_some_and(|motion| motion.distance_m > 0.0));
+    }
 }
 
 #[test]
@@ -76,8 +80,13 @@ fn a_simulated_staircase_is_that_of_the_simulation() {
     let path = plan_file(folder.path(), STAIRCASE);
     let mut harness = simulating(&path);
     wait(&mut harness, "it is done", |h| session(h).step() == Step::Done);
+    leave(&mut harness);
+    // Its folder is not remembered: people answer in another one.
+    assert_eq!(window(&harness).studies().sessions().len(), 1);
+    open(&mut harness, &path);
+    assert!(window(&harness).studies().sessions().is_empty());
     drop(harness);
-    let log = load_log(&log_path(&usual_log_folder(&path), &simulated_name(1))).unwrap();
+    let log = load_log(&log_path(&usual_simulated_log_folder(&path), &simulated_name(1))).unwrap();
     assert_eq!(responses(&log), expected(&path));
     // The surface disappears after its time; the response time counts from then.
     let secs =

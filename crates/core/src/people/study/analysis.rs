@@ -3,7 +3,7 @@
 //! Input: a part of the plan and the records of all participants. Output: the tables that scaling and space building read
 //! ([`sorting`], [`rating`]), counts ([`discrimination`], [`abx`]), or [`Cells`]: one value for each participant and
 //! condition, the mean over repeats, or nothing where an answer is missing. Tests of hypotheses begin with these cells.
-//! Answers of practice trials are left out.
+//! Answers of practice trials are left out. [`limits`] counts the answers that say less than they seem to.
 
 pub mod abx;
 pub mod anchors;
@@ -11,6 +11,7 @@ mod cells;
 pub mod discrimination;
 pub mod dissimilarity;
 pub mod likert;
+pub mod limits;
 pub mod mushra;
 pub mod rating;
 pub mod relevance;
@@ -25,9 +26,18 @@ use crate::people::study::plan::Part;
 
 /// Answers of a part that count, with the record of their participant.
 fn scored<'a>(records: &'a [Record], part: &'a Part) -> impl Iterator<Item = (&'a Record, &'a Answer)> {
+    scored_by_index(records, part).map(|(record, _, answer)| (record, answer))
+}
+
+/// Answers of a part that count, with the record of their participant and their index in it.
+fn scored_by_index<'a>(
+    records: &'a [Record],
+    part: &'a Part,
+) -> impl Iterator<Item = (&'a Record, usize, &'a Answer)> {
     records.iter().flat_map(move |record| {
-        let of_part = move |answer: &&Answer| answer.trial.part == part.id && !answer.trial.is_practice;
-        record.answers.iter().filter(of_part).map(move |answer| (record, answer))
+        let all = record.answers.iter().enumerate();
+        all.filter(move |(_, answer)| answer.trial.part == part.id && !answer.trial.is_practice)
+            .map(move |(index, answer)| (record, index, answer))
     })
 }
 

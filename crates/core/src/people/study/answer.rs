@@ -4,6 +4,7 @@ mod check;
 
 pub use check::{ResponseError, check};
 
+use crate::people::study::setup::Setup;
 use crate::people::study::trial::{Side, Task, Trial};
 
 /// Response to a task.
@@ -38,8 +39,11 @@ pub enum Response {
 pub struct Measured {
     /// Time from the end of the presentation, or its start where participants explore freely, to the response, in s.
     pub response_secs: Option<f64>,
-    /// Movement of the hand during the trial.
+    /// Movement of the hand during the trial; `None` without contact.
     pub motion: Option<Motion>,
+    /// Distance that the tip moved in contact over each stimulus, in m, in the order of [`Task::shown`]; two for the sides of
+    /// a detection, one for the texture of a question.
+    pub touched_m: Vec<f64>,
     /// Latency of the output, as measured last, in s.
     pub latency_secs: Option<f64>,
     /// Identifier of the actuator profile.
@@ -75,8 +79,12 @@ pub struct Answer {
 /// Something that happens in a session and that its log keeps.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
+    /// The devices are these from here on.
+    SetUp(Box<Setup>),
     /// The participant agreed to the consent text.
     Consented,
+    /// The participant did not agree to the consent text. The session is over.
+    Refused,
     /// The participant ended a break.
     Rested,
     /// The participant answered a trial.
@@ -98,21 +106,48 @@ pub struct Record {
     pub is_simulated: bool,
     /// Answers, in the order of the session.
     pub answers: Vec<Answer>,
+    /// Setups of the devices, in the order of the session.
+    pub setups: Vec<SetupFrom>,
+}
+
+/// Setup of the devices from an answer on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SetupFrom {
+    /// Index of the first answer with it.
+    pub first_answer: usize,
+    /// The setup; `None` if it is not known, as after a resume by an older version of the program.
+    pub setup: Option<Setup>,
 }
 
 impl Record {
     /// Record of the answers among these events. If a trial is answered twice, the first answer counts.
     pub fn of(participant: String, number: usize, is_simulated: bool, events: &[Event]) -> Self {
         let mut answers: Vec<Answer> = Vec::new();
+        let mut setups: Vec<SetupFrom> = Vec::new();
         let mut seen = std::collections::BTreeSet::new();
         for event in events {
-            if let Event::Answered(answer) = event
-                && seen.insert((answer.trial.part.as_str(), answer.trial.number))
-            {
-                answers.push(Answer::clone(answer));
+            let first_answer = answers.len();
+            match event {
+                Event::Answered(answer) => {
+                    if seen.insert((answer.trial.part.as_str(), answer.trial.number)) {
+                        answers.push(Answer::clone(answer));
+                    }
+                }
+                Event::SetUp(setup) => {
+                    setups.push(SetupFrom { first_answer, setup: Some(Setup::clone(setup)) });
+                }
+                // The devices may be others meanwhile.
+                Event::Resumed => setups.push(SetupFrom { first_answer, setup: None }),
+                Event::Consented | Event::Refused | Event::Rested | Event::Ended => {}
             }
         }
-        Self { participant, number, is_simulated, answers }
+        Self { participant, number, is_simulated, answers, setups }
+    }
+
+    /// Setup of the devices at an answer, by its index; `None` if the log does not state it.
+    pub fn setup_at(&self, answer: usize) -> Option<&Setup> {
+        let before = self.setups.iter().rev().find(|from| from.first_answer <= answer)?;
+        before.setup.as_ref()
     }
 }
 

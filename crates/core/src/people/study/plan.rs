@@ -108,13 +108,19 @@ pub struct Part {
     pub n_repeats: usize,
     /// Number of trials at the beginning whose answers are not analyzed.
     pub n_practice: usize,
-    /// Number of trials after which a break is offered.
+    /// Number of trials after which a break is offered, without practice.
     pub break_every: Option<usize>,
     /// How often each stimulus of a trial can be started; `None` for any number of times.
     pub max_plays: Option<u32>,
+    /// Distance in mm that the tip must move over each stimulus before the trial can be answered
+    /// ([`crate::people::study::touch`]); `None` if no touch is required.
+    pub touch_mm: Option<f64>,
     /// Times of presentation.
     pub timing: Timing,
 }
+
+/// Distance of [`Part::touch_mm`] unless a plan states another one, in mm. It is ours: a short stroke.
+pub const USUAL_TOUCH_MM: f64 = 20.0;
 
 /// Times of presentation of the stimuli of a trial, in s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -27,7 +27,8 @@ pub struct Progress {
     /// Parts in the order of presentation.
     parts: Vec<PartProgress>,
     has_consented: bool,
-    /// Index into `parts` of the last answer, and the number of its answers since the last break.
+    has_refused: bool,
+    /// Index into `parts` of the last answer, and the number of its answers since the last break, without practice.
     since_break: (usize, usize),
 }
 
@@ -40,7 +41,7 @@ pub enum Step {
     Break,
     /// Present a trial.
     Trial(Trial),
-    /// Nothing: all trials are answered.
+    /// Nothing: all trials are answered, or the participant did not agree to the consent text.
     Done,
 }
 
@@ -91,6 +92,7 @@ pub fn replay(plan: Arc<Plan>, participant: usize, events: &[Event]) -> Result<R
     for event in events {
         match event {
             Event::Consented => progress.consent(),
+            Event::Refused => progress.refuse(),
             Event::Rested => progress.rest(),
             Event::Answered(answer) => match progress.answer(&answer.trial, &answer.response) {
                 Ok(Taken::Expected) => {}
@@ -101,7 +103,7 @@ pub fn replay(plan: Arc<Plan>, participant: usize, events: &[Event]) -> Result<R
                 Err(error @ ProgressError::Twice { .. }) => warnings.push(error.to_string()),
                 Err(error) => return Err(error),
             },
-            Event::Resumed | Event::Ended => {}
+            Event::SetUp(_) | Event::Resumed | Event::Ended => {}
         }
     }
     Ok(Replayed { progress, warnings })
@@ -121,7 +123,8 @@ impl Progress {
             .into_iter()
             .map(|index| PartProgress::new(&plan, index, participant))
             .collect();
-        Ok(Self { plan, participant, parts, has_consented: false, since_break: (0, 0) })
+        let (has_consented, has_refused) = (false, false);
+        Ok(Self { plan, participant, parts, has_consented, has_refused, since_break: (0, 0) })
     }
 
     /// The plan.
@@ -136,7 +139,7 @@ impl Progress {
 
     /// What comes next.
     pub fn step(&self) -> Step {
-        if !self.has_consented && !self.plan.consent.trim().is_empty() {
+        if !self.has_consented && !self.has_refused && !self.plan.consent.trim().is_empty() {
             return Step::Consent;
         }
         match self.next_trial() {
@@ -146,7 +149,7 @@ impl Progress {
         }
     }
 
-    /// Where the next trial is; `None` if all are answered.
+    /// Where the next trial is; `None` if there is none.
     pub fn place(&self) -> Option<Place> {
         let (position, trial) = self.next_trial()?;
         let part = &self.parts[position];
@@ -165,6 +168,16 @@ impl Progress {
     /// The participant agrees to the consent text.
     pub fn consent(&mut self) {
         self.has_consented = true;
+    }
+
+    /// The participant does not agree to the consent text, so that no trial follows.
+    pub fn refuse(&mut self) {
+        self.has_refused = true;
+    }
+
+    /// Whether the participant did not agree to the consent text.
+    pub fn has_refused(&self) -> bool {
+        self.has_refused
     }
 
     /// The participant ends a break.
@@ -188,7 +201,7 @@ impl Progress {
         })?;
         let taken = self.parts[position].answer(&self.plan, self.participant, trial, response)?;
         let n_before = if self.since_break.0 == position { self.since_break.1 } else { 0 };
-        self.since_break = (position, n_before + 1);
+        self.since_break = (position, n_before + usize::from(!trial.is_practice));
         Ok(taken)
     }
 
@@ -199,6 +212,9 @@ impl Progress {
 
     /// Index into `parts`, and the trial.
     fn next_trial(&self) -> Option<(usize, Trial)> {
+        if self.has_refused {
+            return None;
+        }
         let next = |(position, part): (usize, &PartProgress)| {
             Some((position, part.next(&self.plan, self.participant)?))
         };

@@ -48,6 +48,27 @@ pub(crate) fn trial_seed(plan: &Plan, part: &Part, participant: usize, number: u
     derive_seed(plan.seed, &format!("participant {participant}, part {}, trial {number}", part.id)) >> 1
 }
 
+/// Whether a trial has the seed that the plan gives this participant. Another one is damaged, or of another participant.
+pub fn is_trial_of(plan: &Plan, participant: usize, trial: &Trial) -> bool {
+    let part = plan.part(&trial.part);
+    part.is_some_and(|part| trial_seed(plan, part, participant, trial.number) == trial.seed)
+}
+
+/// Largest number of a participant that [`participant_of`] finds.
+const MOST_PARTICIPANTS: usize = 10_000;
+/// Number of trials whose participant is looked for, because one of them may be damaged.
+const MOST_TRIED: usize = 5;
+
+/// Number of the participant, from 1, to whom the plan gives most of these trials; `None` if there is none. For logs that do not
+/// state the number any more.
+pub fn participant_of(plan: &Plan, trials: &[&Trial]) -> Option<usize> {
+    let of_trial = |trial: &&Trial| (1..=MOST_PARTICIPANTS).find(|number| is_trial_of(plan, *number, trial));
+    let has_most = |number: &usize| {
+        2 * trials.iter().filter(|trial| is_trial_of(plan, *number, trial)).count() > trials.len()
+    };
+    trials.iter().take(MOST_TRIED).filter_map(of_trial).find(has_most)
+}
+
 /// Tasks of a part in blocks that stay together unless all is shuffled: one for each repeat, or for each prompt of each repeat.
 fn blocks(part: &Part, random: &mut Random) -> Vec<Vec<Task>> {
     let coins: Vec<[usize; 2]> =

@@ -11,9 +11,10 @@ mod world;
 use std::sync::Arc;
 
 use crate::people::panel::simulated_name;
-use crate::people::study::answer::{Answer, Event, Measured, Record};
+use crate::people::study::answer::{Answer, Event, Measured, Motion, Record};
 use crate::people::study::plan::Plan;
 use crate::people::study::progress::{Progress, ProgressError, Step};
+use crate::people::study::touch::n_touched;
 use crate::people::study::trial::Trial;
 
 pub use observers::Observers;
@@ -55,6 +56,12 @@ pub enum SimulationError {
 
 /// Device that measurements of simulated participants name.
 pub const SIMULATED_DEVICE: &str = "simulated";
+
+/// Distance that simulated participants move over each stimulus, in m, or more if the part requires more.
+const STROKE_M: f64 = 0.125;
+/// Speed in m/s and force in N of their strokes.
+const STROKE_SPEED_MPS: f64 = 0.125;
+const STROKE_FORCE_N: f64 = 1.0;
 
 /// Events of the whole session of one simulated participant, numbered from 1. The same seed gives the same events.
 ///
@@ -112,11 +119,19 @@ pub fn simulated_study(
 }
 
 impl SimulatedParticipant<'_> {
-    /// Answers a trial of the plan, with a response time and one play of each stimulus.
+    /// Answers a trial of the plan, with a response time, and with one play and one stroke of each stimulus.
     pub fn answer(&mut self, trial: Trial) -> Answer {
         let response = self.respond(&trial);
+        let distance_m = STROKE_M.max(1e-3 * self.required_mm(&trial));
+        let touched_m = vec![distance_m; n_touched(&trial.task)];
         let measured = Measured {
             response_secs: Some(self.response_secs()),
+            motion: Some(Motion {
+                distance_m: touched_m.iter().sum(),
+                mean_speed_mps: STROKE_SPEED_MPS,
+                mean_force_n: STROKE_FORCE_N,
+            }),
+            touched_m,
             device: SIMULATED_DEVICE.to_owned(),
             n_plays: vec![1; trial.task.shown().len()],
             ..Measured::default()

@@ -4,7 +4,7 @@ use crate::people::ratings::AdjectivePair;
 use crate::people::study::order::Order;
 use crate::people::study::plan::{
     Comparison, Condition, Design, MushraPage, Part, Plan, Prompts, ShownControls, Source, Statement,
-    Stimulus, Timing, Variant, Varied,
+    Stimulus, Timing, USUAL_TOUCH_MM, Variant, Varied,
 };
 use crate::people::study::staircase::StaircaseRule;
 
@@ -24,6 +24,7 @@ pub(crate) fn part(id: &str, design: Design) -> Part {
         n_practice: 0,
         break_every: None,
         max_plays: None,
+        touch_mm: Some(USUAL_TOUCH_MM),
         timing: Timing::default(),
     }
 }

@@ -53,6 +53,11 @@ pub(super) fn from_ratings(
     let has_place: BTreeSet<&str> = in_space.iter().map(|texture| texture.name).collect();
     let outside = data.textures.iter().filter(|texture| !has_place.contains(texture.name));
     let not_placed: Vec<String> = outside.map(|texture| texture.name.to_owned()).collect();
+    // Textures that nobody rated are those of the library that were not in the experiment.
+    let is_rated = |name: &str| in_ratings.contains(name);
+    let are_missed = warnings::are_missed(data.textures.len() - rated.len(), rated.len());
+    let missed: Vec<String> =
+        not_placed.iter().filter(|name| are_missed || is_rated(name)).cloned().collect();
 
     progress.begin(Step::Features)?;
     let features = features(&in_space, options, &|| progress.go_on())?;
@@ -69,13 +74,7 @@ pub(super) fn from_ratings(
     };
     let axes = axes_of_means(&fitting, chosen)?;
     let axis_correlation = axis_correlation(&adjectives, chosen);
-    findings.extend(warnings::of_mean_ratings(
-        &axes,
-        &adjectives,
-        axis_correlation,
-        raters.len(),
-        &not_placed,
-    ));
+    findings.extend(warnings::of_mean_ratings(&axes, &adjectives, axis_correlation, raters.len(), &missed));
     findings.extend(warnings::of_prediction(&axes));
     let positions = positions(&axes);
     findings.extend(warnings::of_places(&textures, &positions));

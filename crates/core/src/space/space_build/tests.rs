@@ -203,6 +203,7 @@ fn missing_sorts_and_ratings_are_reported_and_tolerated() {
     let findings = built.findings.join("\n");
     assert!(findings.contains("not rated, so positioned by sorting alone: t00"), "{findings}");
     assert!(findings.contains("rated but not sorted, so without a position: t13"), "{findings}");
+    assert_eq!(findings.matches("without a position").count(), 1, "once: {findings}");
 }
 
 #[test]

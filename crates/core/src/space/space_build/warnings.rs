@@ -24,6 +24,12 @@ const COINCIDENT: f64 = 0.5;
 /// Minimum median distance relative to the largest distance; a smaller value indicates a collapsed space.
 const COLLAPSED: f64 = 0.05;
 
+/// Whether textures without judgments need a warning: if they are fewer than the judged ones. Otherwise the experiment was about a
+/// part of the library, and the number of textures in the space says so.
+pub(super) fn are_missed(n_left_out: usize, n_judged: usize) -> bool {
+    n_left_out > 0 && n_left_out < n_judged
+}
+
 /// Warnings about the participants and their sorts; `unsorted` are the textures that nobody sorted.
 pub(super) fn of_sorting(
     data: &SpaceData<'_>,
@@ -34,8 +40,11 @@ pub(super) fn of_sorting(
 ) -> Vec<String> {
     let mut said = sort_findings(&similarity.findings);
     said.extend(participation(data, table));
-    if !unsorted.is_empty() {
-        said.push(format!("not sorted, so without a position: {}", unsorted.join(", ")));
+    // Those that were rated have a warning of their own.
+    let left_out: Vec<&str> =
+        unsorted.iter().copied().filter(|name| !table.textures().iter().any(|of| of == name)).collect();
+    if are_missed(left_out.len(), similarity.textures.len()) {
+        said.push(format!("not sorted, so without a position: {}", left_out.join(", ")));
     }
     let n_sorters = similarity.agreements.len();
     if n_sorters < MIN_SORTERS {
@@ -125,7 +134,7 @@ pub(super) fn of_prediction(axes: &[Axis; 2]) -> Option<String> {
     })
 }
 
-/// Warnings about positions that are mean ratings.
+/// Warnings about positions that are mean ratings; `not_placed` are the textures whose missing position needs a warning.
 pub(super) fn of_mean_ratings(
     axes: &[Axis; 2],
     adjectives: &[Adjective],

@@ -5,8 +5,10 @@ use shagreen_core::people::study::plan::{
     Comparison, Condition, Design, MushraPage, Prompts, ShownControls, Statement, Varied,
 };
 use shagreen_core::people::study::staircase::{LaterFactor, StaircaseRule};
+use shagreen_core::words::near;
 
-use crate::questionnaire::{Questionnaire, questionnaires};
+use crate::questionnaire::{Questionnaire, is_known_pair, is_same_pair, known_pairs, questionnaires};
+use crate::study_plan::key_problem::KeyProblem;
 use crate::study_plan::read::Reader;
 use crate::study_plan::wire::{ConditionV1, PageV1, PartV1, ShownV1, VariedV1};
 
@@ -16,7 +18,7 @@ const MOST_PAIRS: usize = 1000;
 impl Reader {
     pub(super) fn design(&mut self, part: &PartV1, all_stimuli: &[String]) -> Design {
         let stimuli = || part.stimuli.clone().unwrap_or_else(|| all_stimuli.to_vec());
-        match part.design.as_str() {
+        match part.design.as_deref().unwrap_or_default() {
             "relevance" => Design::Relevance { stimuli: stimuli(), adjectives: self.adjectives(part) },
             "rating" => Design::Rating {
                 stimuli: stimuli(),
@@ -48,7 +50,7 @@ impl Reader {
             "sorting" => {
                 Design::Sorting { stimuli: stimuli(), groups: self.need("groups", part.groups.clone()) }
             }
-            // An unknown design, which is reported already.
+            // An unknown or missing design, which is reported already.
             _ => Design::Sorting { stimuli: Vec::new(), groups: Vec::new() },
         }
     }
@@ -61,20 +63,53 @@ impl Reader {
         }
     }
 
+    /// Adjective pairs of a part: those of `scales` or of the questionnaire, then the own ones that are not among them.
     fn scales(&mut self, part: &PartV1) -> Vec<AdjectivePair> {
-        let names = match (&part.scales, self.questionnaire(part)) {
-            (Some(names), _) => names.clone(),
-            (None, Some(questionnaire)) => return questionnaire.pairs.clone(),
+        let own = self.adjective_pairs("own_scales", part.own_scales.as_deref().unwrap_or_default());
+        let mut pairs = match (&part.scales, self.questionnaire(part)) {
+            (Some(names), _) => {
+                let pairs = self.adjective_pairs("scales", names);
+                self.check_declared(&pairs, &own);
+                pairs
+            }
+            (None, Some(questionnaire)) => questionnaire.pairs.clone(),
+            (None, None) if part.own_scales.is_some() => Vec::new(),
             (None, None) => self.need("scales", None),
         };
+        let further = own.into_iter().filter(|pair| !pairs.iter().any(|of| is_same_pair(of, pair)));
+        let further: Vec<AdjectivePair> = further.collect();
+        pairs.extend(further);
+        pairs
+    }
+
+    fn adjective_pairs(&mut self, key: &str, names: &[String]) -> Vec<AdjectivePair> {
         let mut pairs = Vec::with_capacity(names.len());
         for name in names {
             match name.parse::<AdjectivePair>() {
                 Ok(pair) => pairs.push(pair),
-                Err(error) => self.add("scales", error.to_string()),
+                Err(error) => self.add(key, error.to_string()),
             }
         }
         pairs
+    }
+
+    /// Checks that each pair is known, or declared as one of the user's own: most others are misspelled.
+    fn check_declared(&mut self, pairs: &[AdjectivePair], own: &[AdjectivePair]) {
+        for pair in pairs {
+            if is_known_pair(pair) || own.iter().any(|of| is_same_pair(of, pair)) {
+                continue;
+            }
+            let known: Vec<String> = known_pairs().iter().map(AdjectivePair::name).collect();
+            let near = near(known.iter().map(String::as_str), &pair.name());
+            let meant =
+                if near.is_empty() { String::new() } else { format!("did you mean {}? ", near.join(", ")) };
+            let text = format!(
+                "\"{}\" is not a known pair of adjectives; {meant}known are {}; if it is a pair of your own, list it in `own_scales` too",
+                pair.name(),
+                known.join(", ")
+            );
+            self.undeclared.push(KeyProblem::new(format!("{}scales", self.at), text));
+        }
     }
 
     /// The questionnaire that a part names.

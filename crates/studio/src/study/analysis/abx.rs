@@ -71,6 +71,7 @@ fn table(pairs: &[Matches], adjusted: &[f64]) -> Table {
         columns: ["right", "low", "high", "p", "n"].map(str::to_owned).to_vec(),
         rows: pairs.iter().zip(adjusted).map(row).collect(),
         decimals: 3,
+        n_counts: 1,
         source: String::new(),
     }
 }

@@ -105,6 +105,7 @@ fn table(pairs: &[Discrimination]) -> Table {
         columns: ["hits", "false alarms", "d'", "differencing", "independent"].map(str::to_owned).to_vec(),
         rows: pairs.iter().map(row).collect(),
         decimals: 2,
+        n_counts: 0,
         source: String::new(),
     }
 }

@@ -108,6 +108,7 @@ fn table(scores: &[(Comparison, f64)], average: f64) -> Table {
         columns: vec!["score".to_owned()],
         rows: scores.iter().map(row).chain([("mean".to_owned(), vec![Some(average)])]).collect(),
         decimals: 3,
+        n_counts: 0,
         source: String::new(),
     }
 }

@@ -7,7 +7,7 @@ use shagreen_formats::figure::{Figure, page_svg};
 use shagreen_formats::ratings_csv::{ratings_csv, relevance_csv};
 use shagreen_formats::sorting_csv::sorting_csv;
 
-use super::{FORMAT, StudyReport};
+use super::{FORMAT, StudyReport, limits};
 use crate::figure_files::figure_files;
 use crate::file::read_file;
 use crate::replace::has_format;
@@ -19,7 +19,7 @@ const REPORT: &str = "report.json";
 const ON_PAGE: [usize; 2] = [17, 6];
 
 /// The files of a report in a folder, with their contents: `report.json`, `report.svg`, `answers.csv`, each figure as SVG and
-/// CSV, and `sorting.csv`, `ratings.csv` and `votes.csv` if there are such judgments.
+/// CSV, and `sorting.csv`, `ratings.csv`, `votes.csv` and `pairs.csv` if there are such answers.
 pub fn report_files(report: &StudyReport, folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut json = serde_json::to_vec_pretty(&report.json).unwrap_or_default();
     json.push(b'\n');
@@ -36,6 +36,7 @@ pub fn report_files(report: &StudyReport, folder: &Path) -> Vec<(PathBuf, Vec<u8
     ];
     let filled = tables.into_iter().filter(|(_, is_empty, _)| !is_empty);
     files.extend(filled.map(|(name, _, bytes)| (folder.join(name), bytes)));
+    files.extend(report.pairs_csv.iter().map(|bytes| (folder.join("pairs.csv"), bytes.clone())));
     let figures = report.parts.iter().flat_map(|part| &part.figures);
     files.extend(figures.flat_map(|(name, figure)| figure_files(folder, name, figure)));
     files
@@ -68,11 +69,11 @@ pub fn check_report_files(folder: &Path, files: &[(PathBuf, Vec<u8>)]) -> anyhow
     Ok(())
 }
 
-/// All charts and small tables on one page; the other tables have files of their own.
+/// What limits the answers, and all charts and small tables, on one page; the other tables have files of their own.
 fn page(report: &StudyReport) -> String {
     let figures = report.parts.iter().flat_map(|part| &part.figures).map(|(_, figure)| figure);
-    let shown: Vec<Figure> =
-        figures.filter(|figure| fits_on_page(figure)).map(|of| Figure::clone(of)).collect();
+    let figures = figures.filter(|figure| fits_on_page(figure)).map(|of| Figure::clone(of));
+    let shown: Vec<Figure> = limits::figure(&report.limited).into_iter().chain(figures).collect();
     page_svg(&report.plan.name, &report.who(), &shown)
 }
 

@@ -78,6 +78,7 @@ impl Measure {
             columns: ["mean", "±", "n"].map(str::to_owned).to_vec(),
             rows: self.cells.columns.iter().zip(&self.averages).map(row).collect(),
             decimals: DECIMALS,
+            n_counts: 1,
             source: String::new(),
         }
     }

@@ -10,8 +10,9 @@ use shagreen_core::people::study::plan::Plan;
 use shagreen_core::people::study::progress::replay;
 use shagreen_formats::study_log::ReadLog;
 
-use crate::file::file_name;
-use crate::study::logs::{ListedLog, list_logs, load_log, log_warnings};
+use crate::file::{file_name, one_line};
+use crate::study::logs::{ListedLog, list_logs, load_log, log_warnings, recover_log};
+use crate::study::plans::StudyPlan;
 
 /// Kind of participants of a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -41,30 +42,67 @@ pub(super) struct Participant {
     pub(super) is_complete: bool,
 }
 
-/// Reads logs, and all logs of folders. A file of a folder that cannot be read is named in the warnings of the result.
+/// Reads logs, and all logs of folders. A file of a folder that cannot be read is named in the warnings of the result. A log
+/// whose first line is damaged is read with the plan of the others.
 ///
 /// # Errors
 /// There is no log, a log that is named cannot be read, the logs have different plans, or two of them the same participant.
 pub fn read_logs(paths: &[PathBuf]) -> anyhow::Result<StudyLogs> {
-    let (mut logs, mut unreadable): (Vec<(PathBuf, ReadLog)>, Vec<String>) = (Vec::new(), Vec::new());
+    read_logs_with(paths, None)
+}
+
+/// Reads logs as [`read_logs`] does. A log whose first line is damaged is read with this plan, or else
+/// with that of the others.
+///
+/// # Errors
+/// As [`read_logs`].
+pub fn read_logs_with(paths: &[PathBuf], plan: Option<&StudyPlan>) -> anyhow::Result<StudyLogs> {
+    let mut logs: Vec<(PathBuf, ReadLog)> = Vec::new();
+    let mut damaged: Vec<Damaged> = Vec::new();
     for path in paths {
-        if !path.is_dir() {
-            logs.push((path.clone(), load_log(path)?));
-            continue;
-        }
-        for ListedLog { path, log } in list_logs(path)? {
-            match log {
-                Ok(log) => logs.push((path, *log)),
-                Err(reason) => unreadable.push(format!("the answers of a file are left out: {reason}")),
+        if path.is_dir() {
+            for ListedLog { path, log } in list_logs(path)? {
+                match log {
+                    Ok(log) => logs.push((path, *log)),
+                    Err(reason) => damaged.push(Damaged { path, reason, error: None }),
+                }
+            }
+        } else {
+            match load_log(path) {
+                Ok(log) => logs.push((path.clone(), log)),
+                Err(error) => {
+                    let reason = one_line(&error);
+                    damaged.push(Damaged { path: path.clone(), reason, error: Some(error) });
+                }
             }
         }
     }
+    let of_logs = logs.first().map(|(_, log)| log.header.plan_text().to_owned());
+    let plan_texts: Vec<String> = plan.map(|plan| plan.text.clone()).into_iter().chain(of_logs).collect();
+    let mut unreadable = Vec::new();
+    for Damaged { path, reason, error } in damaged {
+        // If it cannot be recovered either, the reason stays that of the first attempt.
+        let recovered = plan_texts.iter().find_map(|text| recover_log(&path, text).ok());
+        match (recovered, error) {
+            (Some(log), _) => logs.push((path, log)),
+            // A log that was named must be read; others of its folder are only mentioned.
+            (None, Some(error)) => return Err(error),
+            (None, None) => unreadable.push(format!("the answers of a file are left out: {reason}")),
+        }
+    }
+    // The recovered ones were added last.
+    logs.sort_by(|(one, _), (other, _)| one.cmp(other));
     let Some((first, ReadLog { plan, .. })) = logs.first() else {
         let named: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+        let named = named.join(", ");
+        if let (Some(reason), true) = (unreadable.first(), plan_texts.is_empty()) {
+            bail!(
+                "no log can be read ({reason}); if only its first line is damaged, state the plan of the study too (on the command line: --plan): {named}"
+            );
+        }
         let why = unreadable.first().map_or_else(String::new, |reason| format!(" ({reason})"));
         bail!(
-            "there are no logs of a study{why}; run a session first, or give the folder of its logs: {}",
-            named.join(", ")
+            "there are no logs of a study{why}; run a session first, or give the folder of its logs: {named}"
         );
     };
     if let Some((other, _)) = logs.iter().find(|(_, log)| log.plan != *plan) {
@@ -76,6 +114,15 @@ pub fn read_logs(paths: &[PathBuf]) -> anyhow::Result<StudyLogs> {
     }
     check_participants(&logs)?;
     Ok(StudyLogs { plan: Arc::new(plan.clone()), logs, unreadable })
+}
+
+/// A file that could not be read as a log.
+struct Damaged {
+    path: PathBuf,
+    /// Why, in one line.
+    reason: String,
+    /// The error, if the file was named.
+    error: Option<anyhow::Error>,
 }
 
 fn check_participants(logs: &[(PathBuf, ReadLog)]) -> anyhow::Result<()> {
@@ -104,10 +151,20 @@ impl StudyLogs {
         self.logs.iter().map(|(path, _)| path.as_path())
     }
 
-    /// Number of logs of people, and of simulated participants.
+    /// Number of logs of people, and of simulated participants, without those of participants who refused.
     pub fn counts(&self) -> [usize; 2] {
-        let n_simulated = self.logs.iter().filter(|(_, log)| log.header.is_simulated()).count();
-        [self.logs.len() - n_simulated, n_simulated]
+        let taking_part = || self.logs.iter().filter(|(_, log)| !log.has_refused());
+        let n_simulated = taking_part().filter(|(_, log)| log.header.is_simulated()).count();
+        [taking_part().count() - n_simulated, n_simulated]
+    }
+
+    /// Number of participants of a kind who did not agree to the consent text.
+    pub fn n_refused(&self, kind: ParticipantKind) -> usize {
+        let is_simulated = kind == ParticipantKind::Simulated;
+        self.logs
+            .iter()
+            .filter(|(_, log)| log.has_refused() && log.header.is_simulated() == is_simulated)
+            .count()
     }
 
     /// Kind of the participants to analyze.
@@ -135,6 +192,9 @@ impl StudyLogs {
         let is_simulated = kind == ParticipantKind::Simulated;
         for (path, log) in self.logs.iter().filter(|(_, log)| log.header.is_simulated() == is_simulated) {
             warnings.extend(log_warnings(path, log));
+            if log.has_refused() {
+                continue;
+            }
             let record = log.record();
             let replayed = match replay(Arc::clone(&self.plan), record.number, &log.events()) {
                 Ok(replayed) => replayed,

@@ -56,6 +56,7 @@ fn add(analyzed: &mut Analyzed, found: &[Relevance]) {
         columns: ["%", "n"].map(str::to_owned).to_vec(),
         rows: found.iter().map(row).collect(),
         decimals: 0,
+        n_counts: 1,
         source: String::new(),
     };
     analyzed.figures.push(("votes".to_owned(), Figure::Table(table)));

@@ -9,6 +9,7 @@ use shagreen_core::people::study::analysis::rating::{rating_cells, ratings as ra
 use shagreen_core::people::study::analysis::similarity::similarity_cells;
 use shagreen_core::people::study::answer::Record;
 use shagreen_core::people::study::plan::{Design, Part, Plan};
+use shagreen_core::words::counted;
 
 use super::{Analyzed, Measure};
 
@@ -43,18 +44,47 @@ pub(super) fn positions(part: &Part, records: &[Record]) -> Analyzed {
 
 /// Grades of statements under conditions, and their mean over the statements.
 pub(super) fn questionnaire(part: &Part, records: &[Record]) -> Analyzed {
-    let Design::Likert { n_points, low, high, .. } = &part.design else { return Analyzed::default() };
+    let Design::Likert { conditions, statements: asked, prompts, n_points, low, high } = &part.design else {
+        return Analyzed::default();
+    };
     let unit = format!("1 = {low}, {n_points} = {high}");
     let statements = grades(part, records);
     let n_grades: usize = statements.iter().map(|of| n_answers(&of.cells)).sum();
+    let by_participant = grades_by_participant(&statements);
     let n_values: usize = statements.iter().map(|of| of.cells.n_values()).sum();
     let together = mean_over_statements(&statements);
     let measures = statements.into_iter().map(|of| Measure::of(of.statement, unit.as_str(), of.cells));
     let all = together.map(|cells| Measure::of("all statements", unit.as_str(), cells));
     let mut analyzed = measured(&measures.chain(all).collect::<Vec<_>>());
-    analyzed.results.insert("n_grades".to_owned(), json!(n_grades));
-    analyzed.results.insert("n_means_over_prompts".to_owned(), json!(n_values));
+    let n_means_each = conditions.len() * asked.len();
+    let n_grades_each = n_means_each * prompts.n_texts() * part.n_repeats;
+    let repeats = if part.n_repeats == 1 { String::new() } else { format!(" × {} repeats", part.n_repeats) };
+    analyzed.findings.insert(
+        0,
+        format!(
+            "{n_grades} grades: {n_grades_each} of each participant with all answers ({} × {} × {}{repeats}). Averaged over the texts, they are {n_values} means: {n_means_each} of each participant. These are tested.",
+            counted(prompts.n_texts(), "text"),
+            counted(conditions.len(), "condition"),
+            counted(asked.len(), "statement"),
+        ),
+    );
+    let results = [
+        ("n_grades", n_grades),
+        ("n_grades_of_a_participant", n_grades_each),
+        ("n_means_over_prompts", n_values),
+        ("n_means_of_a_participant", n_means_each),
+    ];
+    analyzed.results.extend(results.map(|(name, n)| (name.to_owned(), json!(n))));
+    analyzed.results.insert("n_grades_by_participant".to_owned(), by_participant);
     analyzed
+}
+
+/// Number of grades of each participant.
+fn grades_by_participant(statements: &[StatementGrades]) -> Value {
+    let participants = statements.first().map_or(&[][..], |of| of.cells.participants.as_slice());
+    let n_of = |row: usize| statements.iter().map(|of| of.cells.n_answers_of(row)).sum::<usize>();
+    let counts = participants.iter().enumerate().map(|(row, name)| (name.clone(), json!(n_of(row))));
+    counts.collect::<Map<String, Value>>().into()
 }
 
 fn n_answers(cells: &Cells) -> usize {

@@ -71,6 +71,7 @@ fn table(found: &Similarity) -> Table {
         columns: found.textures.clone(),
         rows: found.textures.iter().cloned().zip(found.scores.iter().cloned()).collect(),
         decimals: 0,
+        n_counts: 0,
         source: String::new(),
     }
 }

@@ -1,5 +1,7 @@
 //! From simulated logs on the disk to results: what was hidden is found again, and nothing is lost or mixed.
 
+mod sessions;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -78,7 +80,8 @@ fn thresholds_contain_the_hidden_one() {
     assert_eq!(results["staircases"].as_array().unwrap().len(), 30);
 }
 
-/// The structure of the published questionnaire: 75 grades of each of eleven participants, 165 means over the prompts.
+/// The structure of the published questionnaire: 75 grades of each of eleven participants, 825 in all; averaged over the texts,
+/// 15 means of each, 165 in all.
 #[test]
 fn a_questionnaire_finds_its_conditions_in_order() {
     let simulation = Simulation { effect_points: Some(42.0), ..Simulation::usual(11, 6) };
@@ -87,6 +90,11 @@ fn a_questionnaire_finds_its_conditions_in_order() {
         (results["n_grades"].as_u64(), results["n_means_over_prompts"].as_u64()),
         (Some(825), Some(165))
     );
+    let of_each = results["n_grades_by_participant"].as_object().unwrap();
+    assert!(of_each.len() == 11 && of_each.values().all(|n| n.as_u64() == Some(75)), "{of_each:?}");
+    assert_eq!(results["n_means_of_a_participant"].as_u64(), Some(15));
+    let expected = "825 grades: 75 of each participant with all answers (5 texts × 3 conditions × 5 statements). Averaged over the texts, they are 165 means: 15 of each participant. These are tested.";
+    assert_eq!(results["findings"][0].as_str(), Some(expected));
     let all = &results["measures"]["all statements"];
     let means: Vec<f64> =
         all["means"].as_array().unwrap().iter().map(|mean| mean["mean"].as_f64().unwrap()).collect();

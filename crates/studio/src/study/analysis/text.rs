@@ -44,11 +44,9 @@ fn table_lines(table: &Table) -> Vec<String> {
         format!("  {name:width$}{}", cells.concat())
     };
     let mut lines = vec![format!("  {}", table.title), line("", table.columns.clone())];
-    lines.extend(
-        table
-            .rows
-            .iter()
-            .map(|(name, values)| line(name, values.iter().map(|value| table.shown(*value)).collect())),
-    );
+    let shown = |values: &[Option<f64>]| {
+        values.iter().enumerate().map(|(column, value)| table.shown(column, *value)).collect()
+    };
+    lines.extend(table.rows.iter().map(|(name, values)| line(name, shown(values))));
     lines
 }

@@ -100,6 +100,7 @@ fn table(found: &[Track], unit: &str) -> Table {
         columns: ["threshold", "deviation", "reversals", "trials"].map(str::to_owned).to_vec(),
         rows: found.iter().map(row).collect(),
         decimals: 2,
+        n_counts: 2,
         source: String::new(),
     }
 }

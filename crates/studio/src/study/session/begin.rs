@@ -10,7 +10,9 @@ use shagreen_core::people::study::progress::{Progress, Step, replay};
 use shagreen_formats::study_log::{LogError, LogHeader, StudyLog};
 
 use crate::file::in_file;
-use crate::study::logs::{check_same_study, list_logs, log_path, log_warnings, next_number, pseudonym};
+use crate::study::logs::{
+    check_same_study, free_pseudonym, list_logs, log_path, log_warnings, next_number, pseudonym,
+};
 use crate::study::plans::StudyPlan;
 use crate::study::program;
 use crate::study::session::{StudySession, unix_secs};
@@ -39,7 +41,7 @@ pub enum LogPlace<'a> {
 
 impl StudySession {
     /// Begins the session of a new participant, and creates its log. The number of the participant, which determines all
-    /// orders, follows those of the other logs in the folder.
+    /// orders, follows those of the other logs in the folder, or is that of a participant who refused.
     ///
     /// # Errors
     /// The folder cannot be made or read, or has logs of another plan; the participant has a log already; the pseudonym is
@@ -55,11 +57,13 @@ impl StudySession {
         std::fs::create_dir_all(folder)
             .context("cannot create the folder of the logs; choose another")
             .with_context(|| in_file(folder))?;
-        let logs = list_logs(folder)?;
-        check_same_study(&plan.plan, &logs)?;
-        let mut number = next_number(&logs, is_simulated);
+        let mut n_taken = 0;
         loop {
-            let name = participant.map_or_else(|| pseudonym(number, is_simulated), str::to_owned);
+            let logs = list_logs(folder)?;
+            check_same_study(&plan.plan, &logs)?;
+            let number = next_number(&logs, is_simulated);
+            let name = participant
+                .map_or_else(|| free_pseudonym(&logs, number + n_taken, is_simulated), str::to_owned);
             let path = match place {
                 LogPlace::Folder(folder) => log_path(folder, &name),
                 LogPlace::File(path) => path.to_owned(),
@@ -71,11 +75,11 @@ impl StudySession {
             let progress = Progress::new(Arc::clone(&plan.plan), number)?;
             match StudyLog::create(&path, &header) {
                 Ok(log) => return Ok(Self::of(&header, Some(log), progress)),
-                // Another session took the name meanwhile, or a log that cannot be read has it.
+                // Another session took the name meanwhile, and perhaps the number.
                 Err(LogError::Exists { .. })
                     if participant.is_none() && matches!(place, LogPlace::Folder(_)) =>
                 {
-                    number += 1;
+                    n_taken += 1;
                 }
                 Err(error) => return Err(error.into()),
             }

@@ -14,6 +14,9 @@ pub enum SessionError {
     /// An event before is not saved yet.
     #[error("the last answer is not saved yet; save it again before you go on")]
     Unsaved,
+    /// The session does not ask for consent.
+    #[error("the session does not ask for consent now; continue with its next step")]
+    NoConsent,
     /// The session is not at a trial.
     #[error("the session does not wait for an answer; continue with its next step")]
     NoTrial,

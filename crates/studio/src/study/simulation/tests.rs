@@ -3,7 +3,7 @@ use std::fs;
 use shagreen_core::people::panel::is_simulated;
 use shagreen_formats::study_log::read_study_log;
 
-use super::{Simulation, simulated_logs, write_simulated_logs};
+use super::{ReplacesLogs, Simulation, replace_simulated_logs, simulated_logs, write_simulated_logs};
 use crate::study::logs::{list_logs, log_path};
 use crate::study::plans::{StudyPlan, template, templates};
 use crate::study::session::{LogPlace, NewSession, StudySession};
@@ -67,20 +67,26 @@ fn simulated_logs_replace_their_like_and_no_log_of_a_person() {
     };
     drop(StudySession::begin(&new).unwrap());
     let person = fs::read(log_path(folder, "p01")).unwrap();
-    write_simulated_logs(&study, &simulate(&study, 3, 1), folder).unwrap();
+    let first = simulate(&study, 3, 1);
+    write_simulated_logs(&study, &first, folder).unwrap();
+    // Not without being asked.
     let second = simulate(&study, 3, 2);
-    write_simulated_logs(&study, &second, folder).unwrap();
+    let error = write_simulated_logs(&study, &second, folder).unwrap_err();
+    let expected = ReplacesLogs { path: log_path(folder, "simulated-01") };
+    assert_eq!(error.downcast_ref::<ReplacesLogs>(), Some(&expected), "{error}");
+    assert_eq!(fs::read(log_path(folder, "simulated-02")).unwrap(), first.logs[1].1);
+    replace_simulated_logs(&study, &second, folder).unwrap();
     assert_eq!(list_logs(folder).unwrap().len(), 4);
     assert_eq!(fs::read(log_path(folder, "p01")).unwrap(), person);
     assert_eq!(fs::read(log_path(folder, "simulated-02")).unwrap(), second.logs[1].1);
     // Fewer participants would leave some of another simulation.
-    let error = write_simulated_logs(&study, &simulate(&study, 2, 3), folder).unwrap_err().to_string();
+    let error = replace_simulated_logs(&study, &simulate(&study, 2, 3), folder).unwrap_err().to_string();
     assert!(error.contains("further simulated participants") && error.contains("simulated-03"), "{error}");
     let other = template("mushra").unwrap().study;
     let error = write_simulated_logs(&other, &simulate(&other, 3, 1), folder).unwrap_err().to_string();
     assert!(error.contains("another study"), "{error}");
     fs::write(log_path(folder, "simulated-01"), b"notes").unwrap();
-    let error = write_simulated_logs(&study, &second, folder).unwrap_err().to_string();
+    let error = replace_simulated_logs(&study, &second, folder).unwrap_err().to_string();
     assert!(error.contains("not a log"), "{error}");
     assert_eq!(fs::read(log_path(folder, "simulated-01")).unwrap(), b"notes");
 }

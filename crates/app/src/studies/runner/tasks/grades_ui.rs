@@ -35,7 +35,7 @@ impl<'a> Scale<'a> {
 /// Draws the grade of the similarity of two stimuli.
 pub(super) fn grade_ui(ui: &mut Ui, state: &TrialState) -> Asked {
     let chosen = if let Draft::Grade(grade) = &state.draft { *grade } else { None };
-    scale_ui(ui, Scale::of(&state.design), (0, strings::GRADE), chosen)
+    scale_ui(ui, Scale::of(&state.part.design), (0, strings::GRADE), chosen)
 }
 
 /// Draws the buttons of a scale below its ends; `of` is the index of the statement and its name for screen readers.

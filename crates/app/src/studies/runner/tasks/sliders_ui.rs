@@ -15,7 +15,7 @@ use crate::studies::runner::trial_state::TrialState;
 /// Draws a line for each adjective pair, in the true length of the plan.
 pub(super) fn ratings_ui(ui: &mut Ui, input: &RunnerInput<'_>, state: &TrialState) -> Asked {
     let mut asked = Asked::default();
-    let Design::Rating { pairs, slider_mm, .. } = &state.design else { return asked };
+    let Design::Rating { pairs, slider_mm, .. } = &state.part.design else { return asked };
     let length = *slider_mm as f32 * input.points_per_mm;
     for (index, pair) in pairs.iter().enumerate() {
         ends_ui(ui, [&pair.low, &pair.high], length);

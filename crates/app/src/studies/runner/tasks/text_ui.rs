@@ -95,7 +95,8 @@ fn attributes_ui(ui: &mut Ui, input: &RunnerInput<'_>, texture: &TextTexture) ->
 fn statements_ui(ui: &mut Ui, state: &TrialState) -> Asked {
     let t = tokens(ui.ctx());
     let mut asked = Asked::default();
-    let (Draft::Grades(grades), Design::Likert { statements, .. }) = (&state.draft, &state.design) else {
+    let (Draft::Grades(grades), Design::Likert { statements, .. }) = (&state.draft, &state.part.design)
+    else {
         return asked;
     };
     for (index, (statement, grade)) in statements.iter().zip(grades).enumerate() {
@@ -105,7 +106,7 @@ fn statements_ui(ui: &mut Ui, state: &TrialState) -> Asked {
         frame.show(ui, |ui| {
             ui.set_width(ui.available_width());
             ui.add(Label::new(RichText::new(&statement.text).strong()).wrap());
-            let scale = Scale::of(&state.design);
+            let scale = Scale::of(&state.part.design);
             asked.merge(scale_ui(ui, scale, (index, &statement.text), *grade));
         });
         ui.add_space(GAP);

@@ -15,7 +15,8 @@ const WIDTH: f32 = 170.0;
 /// Draws the adjectives in columns. The first one has the keyboard focus at the beginning, and arrows move it.
 pub(super) fn votes_ui(ui: &mut Ui, state: &TrialState) -> Asked {
     let mut asked = Asked::default();
-    let (Draft::Votes(votes), Design::Relevance { adjectives, .. }) = (&state.draft, &state.design) else {
+    let (Draft::Votes(votes), Design::Relevance { adjectives, .. }) = (&state.draft, &state.part.design)
+    else {
         return asked;
     };
     ui.horizontal_wrapped(|ui| {

@@ -40,7 +40,13 @@ fn record(participant: &str, answers: Vec<(Task, Response)>) -> Record {
         measured: Measured::default(),
     };
     let answers = answers.into_iter().enumerate().map(answer).collect();
-    Record { participant: participant.to_owned(), number: 1, is_simulated: false, answers }
+    Record {
+        participant: participant.to_owned(),
+        number: 1,
+        is_simulated: false,
+        answers,
+        setups: Vec::new(),
+    }
 }
 
 fn compared(first: &str, second: &str, value: f64) -> (Task, Response) {

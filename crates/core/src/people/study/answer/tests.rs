@@ -1,5 +1,6 @@
 use super::{Answer, Event, Measured, Record, Response, ResponseError, check, is_right};
 use crate::people::study::plan::{Comparison, Design};
+use crate::people::study::setup::{OutputDevice, ScreenScale, Setup};
 use crate::people::study::test_plans::{ids, likert, rating, textures};
 use crate::people::study::trial::{Side, Task, Trial};
 
@@ -78,4 +79,47 @@ fn the_first_of_two_answers_to_a_trial_counts() {
     let record = Record::of("p01".to_owned(), 1, false, &events);
     let values: Vec<&Response> = record.answers.iter().map(|answer| &answer.response).collect();
     assert_eq!(values, [&Response::Magnitude(4.0), &Response::Magnitude(5.0)]);
+}
+
+#[test]
+fn every_answer_has_the_setup_of_its_time() {
+    let setup = |output: Option<&str>| Setup {
+        output: output.map(|id| OutputDevice { id: id.to_owned(), name: id.to_owned() }),
+        actuator: None,
+        masking: None,
+        pen: None,
+        screen: ScreenScale::Assumed { pixels_per_mm: 3.8 },
+        program: "test".to_owned(),
+    };
+    let answer = |number: usize| {
+        let task = Task::Rate { stimulus: "cork".to_owned() };
+        let trial = Trial { part: "a".to_owned(), number, is_practice: false, seed: 1, task };
+        let response = Response::Sliders(vec![1.0]);
+        Event::Answered(Box::new(Answer { trial, response, measured: Measured::default() }))
+    };
+    let set_up = |output| Event::SetUp(Box::new(setup(output)));
+    let events = [
+        answer(1),
+        set_up(Some("usb")),
+        answer(2),
+        answer(2),
+        answer(3),
+        set_up(None),
+        answer(4),
+        Event::Resumed,
+        answer(5),
+        Event::Resumed,
+        set_up(Some("hdmi")),
+        answer(6),
+    ];
+    let record = Record::of("p01".to_owned(), 1, false, &events);
+    let outputs: Vec<Option<Option<&str>>> = (0..record.answers.len())
+        .map(|index| {
+            record.setup_at(index).map(|setup| setup.output.as_ref().map(|output| output.id.as_str()))
+        })
+        .collect();
+    let expected = [None, Some(Some("usb")), Some(Some("usb")), Some(None), None, Some(Some("hdmi"))];
+    assert_eq!(outputs, expected);
+    let screen = setup(None).screen;
+    assert!(!screen.is_measured() && screen.pixels_per_mm() == 3.8);
 }

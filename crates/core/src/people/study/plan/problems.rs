@@ -45,6 +45,8 @@ const MOST_TRIALS: usize = 20_000;
 const MOST_PRESENTED: usize = 200_000;
 /// Longest time of presentation, in s.
 const LONGEST_SECS: f64 = 3600.0;
+/// Shortest and longest distance of a required touch, in mm.
+const TOUCH_MM: (f64, f64) = (1.0, 1000.0);
 /// Largest change of a level, in dB.
 const LARGEST_DB: f64 = 60.0;
 
@@ -103,15 +105,16 @@ pub fn problems(plan: &Plan) -> Vec<Problem> {
     checks.found
 }
 
-/// Stimuli whose texture or profile does not exist, as `exists` says. A study with such stimuli must not begin.
-pub fn missing_sources(plan: &Plan, mut exists: impl FnMut(&Source) -> bool) -> Vec<Problem> {
+/// Stimuli whose texture or profile does not exist. A study with such stimuli must not begin. `advice` says what to do about
+/// a source that does not exist, and nothing about one that does.
+pub fn missing_sources(plan: &Plan, mut advice: impl FnMut(&Source) -> Option<String>) -> Vec<Problem> {
     let problem = |(index, stimulus): (usize, &Stimulus)| {
+        let advice = advice(&stimulus.source)?;
         let (key, name) = source_key(&stimulus.source);
-        let text = format!("there is no {key} \"{name}\"; correct the name, or add it to the library");
-        Problem { key: format!("stimulus[{}].{key}", index + 1), text }
+        let text = format!("there is no {key} \"{name}\"; {advice}");
+        Some(Problem { key: format!("stimulus[{}].{key}", index + 1), text })
     };
-    let missing = plan.stimuli.iter().enumerate().filter(|(_, stimulus)| !exists(&stimulus.source));
-    missing.map(problem).collect()
+    plan.stimuli.iter().enumerate().filter_map(problem).collect()
 }
 
 /// Key of a source in the plan file, and its name.
@@ -158,6 +161,9 @@ fn check_part(part: &Part, checks: &mut Checks<'_>) {
     }
     if part.max_plays == Some(0) {
         checks.add("max_plays", "0 plays leave nothing to feel; state 1 or more, or remove the key");
+    }
+    if let Some(least_mm) = part.touch_mm {
+        checks.within("touch_mm", least_mm, TOUCH_MM.0, TOUCH_MM.1);
     }
     let timing = part.timing;
     let times = [("lead_s", timing.lead_secs), ("gap_s", timing.gap_secs), ("pause_s", timing.pause_secs)];

@@ -39,6 +39,7 @@ fn all_problems_are_found_at_once_with_their_keys() {
     plan.parts[3].break_every = Some(0);
     plan.parts[4].id = "rating".to_owned();
     plan.parts[5].timing.stimulus_secs = Some(-1.0);
+    plan.parts[6].touch_mm = Some(0.0);
     let keys = keys(&plan);
     for expected in [
         "name",
@@ -51,6 +52,7 @@ fn all_problems_are_found_at_once_with_their_keys() {
         "part[4].break_every",
         "part[5].id",
         "part[6].stimulus_s",
+        "part[7].touch_mm",
         // "felt" is gone.
         "part[1].stimuli",
         "part[4].pairs",
@@ -167,13 +169,16 @@ fn references_are_compared_with_each_other_and_themselves() {
 #[test]
 fn textures_that_do_not_exist_are_named_before_a_study_begins() {
     let plan = all_designs();
-    assert!(missing_sources(&plan, |_| true).is_empty());
-    let missing = missing_sources(&plan, |source| *source != Source::Texture("felt".to_owned()));
+    assert!(missing_sources(&plan, |_| None).is_empty());
+    let advice = |source: &Source| {
+        (*source == Source::Texture("felt".to_owned())).then(|| "did you mean felts?".to_owned())
+    };
+    let missing = missing_sources(&plan, advice);
     let keys: Vec<&str> = missing.iter().map(|problem| problem.key.as_str()).collect();
     // The original and its three versions.
     assert_eq!(
         keys,
         ["stimulus[2].texture", "stimulus[7].texture", "stimulus[10].texture", "stimulus[12].texture"]
     );
-    assert!(missing[0].text.contains("there is no texture \"felt\""));
+    assert_eq!(missing[0].text, "there is no texture \"felt\"; did you mean felts?");
 }

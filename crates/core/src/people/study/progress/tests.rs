@@ -76,8 +76,8 @@ fn a_session_of_all_designs_ends() {
     let events = events_to_the_end(&mut progress);
     assert_eq!((progress.step(), progress.place()), (Step::Done, None));
     assert_eq!(events.iter().filter(|event| **event == Event::Consented).count(), 1);
-    // Sixteen trials of the dissimilarities have a break after each five, but not after the last one.
-    assert_eq!(events.iter().filter(|event| **event == Event::Rested).count(), 3);
+    // Fourteen trials of the dissimilarities have a break after each five; the two of practice do not count.
+    assert_eq!(events.iter().filter(|event| **event == Event::Rested).count(), 2);
     let staircases = progress.staircases(5);
     assert!(staircases.len() == 1 && staircases[0].is_over() && progress.staircases(0).is_empty());
 }
@@ -105,6 +105,38 @@ fn the_place_tells_practice_from_what_counts() {
     let expected = [(true, false), (true, false), (false, true), (false, false)];
     assert_eq!(places[..4], expected);
     assert_eq!(places.len(), 7);
+}
+
+#[test]
+fn practice_does_not_count_toward_a_break() {
+    let plan = plan_of(vec![Part { n_practice: 3, break_every: Some(2), ..part("a", rating()) }]);
+    let mut progress = started(&plan, 1);
+    let events = events_to_the_end(&mut progress);
+    let kinds: Vec<&str> = events
+        .iter()
+        .map(|event| match event {
+            Event::Answered(answer) if answer.trial.is_practice => "practice",
+            Event::Answered(_) => "trial",
+            Event::Rested => "break",
+            _ => "other",
+        })
+        .collect();
+    let expected = [
+        "other", "practice", "practice", "practice", "trial", "trial", "break", "trial", "trial", "break",
+        "trial", "other",
+    ];
+    assert_eq!(kinds, expected);
+}
+
+#[test]
+fn nothing_follows_a_refusal() {
+    let plan = all_designs();
+    let mut progress = started(&plan, 1);
+    progress.refuse();
+    assert_eq!((progress.step(), progress.place(), progress.has_refused()), (Step::Done, None, true));
+    let progress = replayed(&plan, &[Event::Refused]).progress;
+    assert_eq!((progress.step(), progress.has_refused()), (Step::Done, true));
+    assert!(!started(&plan, 1).has_refused());
 }
 
 #[test]
@@ -209,7 +241,7 @@ proptest! {
             Event::Answered(answer) => Step::Trial(answer.trial.clone()),
             Event::Consented => Step::Consent,
             Event::Rested => Step::Break,
-            Event::Resumed | Event::Ended => Step::Done,
+            Event::SetUp(_) | Event::Refused | Event::Resumed | Event::Ended => Step::Done,
         };
         prop_assert_eq!(progress.step(), expected);
         let events = events_to_the_end(&mut progress);

@@ -1,6 +1,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::{part_order, trials};
+use super::{is_trial_of, part_order, participant_of, trials};
 use crate::people::study::order::Order;
 use crate::people::study::plan::{Comparison, Design, Part, Plan};
 use crate::people::study::test_plans::{all_designs, coded_pairs, dissimilarity, likert, part, plan_of};
@@ -38,6 +38,26 @@ fn the_same_participant_meets_the_same_trials() {
     assert_ne!(trials(&plan, &plan.parts[3], 2), trials(&plan, &plan.parts[3], 4));
     let other = Plan { seed: 8, ..plan.clone() };
     assert_ne!(trials(&plan, &plan.parts[3], 2), trials(&other, &other.parts[3], 2));
+}
+
+#[test]
+fn trials_tell_whose_they_are() {
+    let plan = all_designs();
+    let of = |participant: usize| -> Vec<Trial> {
+        plan.parts.iter().flat_map(|part| trials(&plan, part, participant).into_iter().step_by(3)).collect()
+    };
+    let whose = |plan: &Plan, trials: &[Trial]| participant_of(plan, &trials.iter().collect::<Vec<_>>());
+    for participant in [1, 2, 417] {
+        assert_eq!(whose(&plan, &of(participant)), Some(participant));
+    }
+    // A damaged trial does not matter, but trials of two participants are of no one, as are those of another plan.
+    let mut damaged = of(3);
+    damaged[0].seed += 1;
+    assert_eq!(whose(&plan, &damaged), Some(3));
+    assert!(!is_trial_of(&plan, 3, &damaged[0]) && is_trial_of(&plan, 3, &damaged[1]));
+    assert_eq!(whose(&plan, &[of(1), of(2)].concat()), None);
+    assert_eq!(whose(&Plan { seed: 8, ..plan.clone() }, &of(1)), None);
+    assert_eq!(whose(&plan, &[]), None);
 }
 
 /// As published, each pair is presented twice; here, once in each order.

@@ -54,6 +54,11 @@ impl<'a> SimulatedParticipant<'a> {
         if is_lapse { self.guess(&trial.task, &values) } else { self.judge(&trial.task, &values) }
     }
 
+    /// Distance that the part of a trial requires over each stimulus, in mm.
+    pub(super) fn required_mm(&self, trial: &Trial) -> f64 {
+        self.plan.part(&trial.part).and_then(|part| part.touch_mm).unwrap_or(0.0)
+    }
+
     /// Time to a response, in s.
     pub(super) fn response_secs(&mut self) -> f64 {
         RESPONSE_SECS.0 * self.random.log_normal(RESPONSE_SECS.1)

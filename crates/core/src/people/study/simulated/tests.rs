@@ -8,6 +8,7 @@ use crate::people::study::plan::{Part, Plan};
 use crate::people::study::progress::replay;
 use crate::people::study::schedule::trials;
 use crate::people::study::test_plans::{all_designs, part, plan_of, rating, staircase};
+use crate::people::study::touch::{Felt, n_touched, untouched};
 use crate::people::study::trial::Task;
 
 fn study(plan: &Plan, observers: &Observers, n: usize, seed: u64) -> Vec<super::Record> {
@@ -40,6 +41,24 @@ fn even_lapses_fit_their_task() {
     for answer in records.iter().flat_map(|record| &record.answers) {
         let design = &plan.part(&answer.trial.part).unwrap().design;
         assert_eq!(check(&answer.response, &answer.trial.task, design), Ok(()));
+    }
+}
+
+/// A plan that requires a touch would not stop them.
+#[test]
+fn simulated_participants_touch_every_stimulus_as_far_as_required() {
+    let mut plan = all_designs();
+    plan.parts[2].touch_mm = Some(450.0);
+    let records = study(&plan, &Observers::usual(), 1, 1);
+    for answer in &records[0].answers {
+        let part = plan.part(&answer.trial.part).unwrap();
+        let touched = &answer.measured.touched_m;
+        assert_eq!(touched.len(), n_touched(&answer.trial.task), "{}", part.id);
+        let felt: Vec<Felt> =
+            touched.iter().map(|distance_m| Felt { distance_m: *distance_m, can_be_felt: true }).collect();
+        assert!(untouched(part, &felt).is_empty(), "{}", part.id);
+        let motion = answer.measured.motion.unwrap();
+        assert!((motion.distance_m - touched.iter().sum::<f64>()).abs() < 1e-12);
     }
 }
 

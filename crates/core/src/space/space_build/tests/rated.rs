@@ -242,6 +242,21 @@ fn textures_without_a_rating_on_both_axes_get_no_position() {
     assert!(said.contains("1 texture with a single rating"), "{said}");
 }
 
+/// An experiment with some textures of a library: the others are not listed, but those that lost their position are.
+#[test]
+fn textures_that_were_not_in_the_experiment_are_not_listed_if_they_are_most() {
+    let mut kept = ratings(&["rough-smooth", "hard-soft"]);
+    kept.retain(|rating| {
+        rating.texture.as_str() < "t06" && !(rating.texture == "t02" && rating.pair.low == "hard")
+    });
+    let built = rated(kept, &quick()).unwrap();
+    assert_eq!((built.textures.len(), built.not_placed.len()), (5, N - 5));
+    let said = built.findings.join("\n");
+    assert!(said.contains("not rated on both axes, so without a position: t02"), "{said}");
+    assert_eq!(said.matches("without a position").count(), 1, "{said}");
+    assert!(!said.contains("t10"), "{said}");
+}
+
 #[test]
 fn few_textures_give_a_space_without_predictions() {
     let mut kept = ratings(&["rough-smooth", "hard-soft"]);
