@@ -48,7 +48,7 @@ pub(crate) struct LabelledArgs {
     drawn_heads: Option<PathBuf>,
     /// Contributions of the heads to the hardness: ridge regression, class probabilities, small networks and kernel
     /// regression. Without the fourth number, there is no kernel regression.
-    #[arg(long, value_name = "R,C,N,K", default_value = "1,1,1,3", requires = "photos", value_parser = parse_weights)]
+    #[arg(long, value_name = "R,C,N,K", default_value = "1,1,1,0", requires = "photos", value_parser = parse_weights)]
     head_weights: HeadWeights,
     /// Contribution of the class probabilities to the roughness, 0 to 1. The rest is that of the heads trained on drawn
     /// materials. For photos of fewer than 224 pixels, the class probabilities count alone.
@@ -91,7 +91,7 @@ enum CalibrateOn {
 
 /// Parses three weights that are separated by commas.
 fn parse_weights(text: &str) -> Result<HeadWeights, String> {
-    let wrong = || "it must be three or four numbers of 0 or more, not all 0, such as 1,1,1,3".to_owned();
+    let wrong = || "it must be three or four numbers of 0 or more, not all 0, such as 1,1,1,0".to_owned();
     let numbers = text.split(',').map(|number| number.trim().parse::<f64>());
     let numbers = numbers.collect::<Result<Vec<f64>, _>>().map_err(|_| wrong())?;
     let (ridge, classes, network, kernel) = match numbers[..] {

@@ -116,8 +116,8 @@ fn classes_that_were_left_out_are_drawn_beside_their_labels() {
     let rows = rows(&bench, "drawn/predictions.csv");
     assert_eq!(
         rows.len(),
-        4 * (4 + 5),
-        "four classes, four predictors of the roughness and five of the hardness"
+        4 * (3 + 5),
+        "four classes, three predictors of the roughness of small photos and five of the hardness"
     );
     for [.., method, _, _, deviation] in &rows {
         let is_stated = deviation.parse::<f64>().is_ok_and(|deviation| deviation > 0.0);
@@ -173,7 +173,7 @@ fn tables_of_photos_that_cannot_be_used_say_why() {
     bench.write("photos/broken.csv", table.replace("cork-1.png", "broken.png"));
     bench.fails(&format!("{train} photos/broken.csv --drawn 8"), 1, &["broken.png"]);
     let train = "train photo --backbone none --photos photos/photos.csv";
-    bench.fails(&format!("{train} --head-weights 1,2"), 2, &["three numbers"]);
+    bench.fails(&format!("{train} --head-weights 1,2"), 2, &["three or four numbers"]);
     bench.fails(&format!("{train} --ridge-penalty 0"), 1, &["--ridge-penalty"]);
     bench.fails(&format!("{train} --drawn-only"), 2, &["--photos"]);
     bench.fails("train photo --without-note x", 2, &["--photos"]);

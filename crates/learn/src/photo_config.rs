@@ -38,7 +38,7 @@ pub struct HeadWeights {
     pub classes: f64,
     /// Small networks.
     pub network: f64,
-    /// Kernel regression; models of earlier versions have none.
+    /// Kernel regression. It helps with classes that were left out, but not with sources; the usual settings have none.
     #[serde(default)]
     pub kernel: f64,
 }
@@ -126,7 +126,7 @@ impl PhotoConfig {
                 n_networks: 3,
             },
             kernel: KernelConfig::default(),
-            hardness: HeadWeights { ridge: 1.0, classes: 1.0, network: 1.0, kernel: 3.0 },
+            hardness: HeadWeights { ridge: 1.0, classes: 1.0, network: 1.0, kernel: 0.0 },
             roughness_of_classes: 0.5,
             calibration: Calibration::Classes,
             seed,

@@ -181,7 +181,9 @@ mod tests {
         assert_eq!((of.rough_smooth.mean, of.rough_smooth.terms), (20.0, [1.0, 0.0, 0.0, 0.0]));
         // The kernel regression has three times the weight of the class probabilities.
         let outputs = HeadOutputs { kernel: Some(vec![50.0]), ..outputs };
-        let of = evidence(&outputs, None, &classes, &PhotoConfig::usual(1));
+        let usual = PhotoConfig::usual(1);
+        let hardness = HeadWeights { kernel: 3.0, ..usual.hardness };
+        let of = evidence(&outputs, None, &classes, &PhotoConfig { hardness, ..usual });
         assert_eq!((of.by_head.kernel, of.hard_soft.mean), (Some(50.0), 60.0));
     }
 }

@@ -415,7 +415,7 @@ pub fn touch_first(labels: &[&str]) -> String {
     if labels.is_empty() {
         TOUCH_ONE.to_owned()
     } else {
-        format!("{TOUCH_EACH} Still to be felt: {}.", labels.join(", "))
+        format!("{TOUCH_EACH} Not yet touched: {}.", labels.join(", "))
     }
 }
 

