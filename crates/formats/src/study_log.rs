@@ -39,6 +39,7 @@ pub use header::{LogHeader, LogHeaderError};
 pub use read::{ReadLogError, read_study_log};
 pub use read_log::{LineProblem, ReadLog};
 pub use recover::recover_study_log;
+pub(crate) use setup_line::NO_OUTPUT;
 pub use write::write_study_log;
 
 use shagreen_core::people::study::answer::Event;

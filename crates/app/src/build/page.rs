@@ -17,6 +17,7 @@ use crate::build::judgments::Judgments;
 use crate::build::options_ui::options_ui;
 use crate::build::validation_ui::validation_ui;
 use crate::command::Command;
+use crate::look::primary::primary_button;
 use crate::look::scroll_to_focus::scroll_to_focus;
 use crate::look::theme::{BUILD_INPUTS_WIDTH, GAP, GROUP_GAP, RADIUS, VERDICT_WIDTH, tokens};
 use crate::panel::Panel;
@@ -196,9 +197,7 @@ impl BuildPage {
         }
         let can_build = self.judgments.ratings.read.is_some();
         let name = if self.has_changed() { strings::BUILD_AGAIN } else { strings::BUILD_SPACE };
-        let text = RichText::new(name).color(if can_build { t.on_accent } else { t.text_weak });
-        let button = Button::new(text);
-        let button = if can_build { button.fill(t.accent) } else { button };
+        let button = primary_button(t, name, can_build);
         let size = vec2(ui.available_width(), 30.0);
         let is_wanted = ui.add_enabled_ui(can_build, |ui| ui.add_sized(size, button).clicked()).inner;
         if is_wanted {

@@ -6,6 +6,7 @@ use egui::{Button, Frame, Label, Margin, Panel as Side, RichText, ScrollArea, Ui
 use shagreen_core::space::LabelSource;
 
 use crate::command::Command;
+use crate::look::primary::primary_button;
 use crate::look::theme::{GAP, SCROLL_BAR_ROOM, tokens};
 use crate::panel::Panel;
 use crate::state::edit::Edit;
@@ -73,8 +74,7 @@ fn use_ui(ui: &mut Ui, panel: &Panel<'_>, built: &BuiltSpace) -> Option<Command>
     }
     let note = RichText::new(strings::USE_NOTE).color(t.text_weak);
     ui.add(Label::new(note).truncate().selectable(false));
-    let text = RichText::new(strings::USE_SPACE).color(t.on_accent);
-    let is_wanted =
-        ui.add_sized(size, Button::new(text).fill(t.accent)).on_hover_text(strings::USE_HELP).clicked();
+    let button = primary_button(t, strings::USE_SPACE, true);
+    let is_wanted = ui.add_sized(size, button).on_hover_text(strings::USE_HELP).clicked();
     is_wanted.then(|| Command::Edit(Edit::UseSpace(Arc::clone(&built.placed))))
 }

@@ -1,11 +1,12 @@
 //! Status bar: output, latency and messages.
 
 use egui::text::LayoutJob;
-use egui::{Align, Button, Color32, Label, Layout, Response, RichText, Sense, TextStyle, Ui, vec2};
+use egui::{Align, Color32, Label, Layout, Response, RichText, Sense, TextStyle, Ui, vec2};
 use shagreen_device::status::{LinkState, Status};
 
 use crate::command::Command;
 use crate::look::notice::notice;
+use crate::look::primary::primary_ui;
 use crate::look::theme::tokens;
 use crate::panel::Panel;
 use crate::session::Session;
@@ -38,8 +39,7 @@ fn has_stalled_for_long(ui: &Ui, is_stalled: bool) -> bool {
 fn lost_ui(ui: &mut Ui, id: &str) -> Option<Command> {
     let t = tokens(ui.ctx());
     ui.colored_label(t.error, strings::OUTPUT_LOST);
-    let again = Button::new(RichText::new(strings::OPEN_AGAIN).color(t.on_accent)).fill(t.accent);
-    let again = ui.add(again).on_hover_text(strings::OPEN_AGAIN_HELP);
+    let again = primary_ui(ui, strings::OPEN_AGAIN, true).on_hover_text(strings::OPEN_AGAIN_HELP);
     again.clicked().then(|| Command::OpenOutput(id.to_owned()))
 }
 

@@ -7,6 +7,7 @@ use egui::{
 
 use super::STATUS_HEIGHT;
 use crate::choices::tour::Step;
+use crate::look::primary::primary_button;
 use crate::look::theme::{GAP, LIBRARY_WIDTH, RADIUS, tokens};
 use crate::strings::help as strings;
 
@@ -140,8 +141,7 @@ fn buttons_ui(ui: &mut Ui, index: usize) -> Option<Asked> {
         asked = Some(Asked::Back);
     }
     let name = if is_last { strings::DONE } else { strings::NEXT };
-    let next = Button::new(RichText::new(name).color(t.on_accent)).fill(t.accent).min_size(BUTTON);
-    if ui.add(next).clicked() {
+    if ui.add(primary_button(t, name, true).min_size(BUTTON)).clicked() {
         asked = Some(Asked::Next);
     }
     if !is_last && ui.button(strings::SKIP).clicked() {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use shagreen_core::people::study::setup::{OutputDevice, ScreenScale, Setup};
 
 /// Name of the output of a session without one.
-const NO_OUTPUT: &str = "no output";
+pub(crate) const NO_OUTPUT: &str = "no output";
 
 /// A missing device is written as null, so that a reader of the file sees that there was none.
 #[derive(Serialize, Deserialize)]

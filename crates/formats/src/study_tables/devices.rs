@@ -2,6 +2,8 @@
 
 use shagreen_core::people::study::setup::Setup;
 
+use crate::study_log::NO_OUTPUT;
+
 /// Word for a device that was not used.
 const NONE: &str = "none";
 
@@ -12,7 +14,7 @@ pub(super) fn device_fields(setup: Option<&Setup>) -> [String; 6] {
     };
     let scale = if screen.is_measured() { "measured" } else { "assumed" };
     [
-        output.as_ref().map_or("no output", |output| output.name.as_str()).to_owned(),
+        output.as_ref().map_or(NO_OUTPUT, |output| output.name.as_str()).to_owned(),
         actuator.as_deref().unwrap_or(NONE).to_owned(),
         masking.as_deref().unwrap_or(NONE).to_owned(),
         pen.as_deref().unwrap_or("pointer").to_owned(),

@@ -1,12 +1,13 @@
 //! Calibration of the screen with a bank card, so that lines have their true length.
 
-use egui::{Button, Label, Rect, RichText, Sense, Slider, Ui, vec2};
+use egui::{Label, Rect, RichText, Sense, Slider, Ui, vec2};
 use shagreen_core::people::study::setup::ScreenScale;
 use shagreen_formats::settings::PIXELS_PER_MM;
 
 use super::{Shown, StudiesPage};
 use crate::command::Command;
 use crate::command::studies::StudiesCommand;
+use crate::look::primary::primary_ui;
 use crate::look::theme::{GAP, GROUP_GAP, RADIUS, tokens};
 use crate::strings::studies as strings;
 
@@ -42,8 +43,7 @@ pub(super) fn scale_ui(ui: &mut Ui, page: &mut StudiesPage) -> Option<Command> {
     }
     ui.add_space(2.0 * GROUP_GAP);
     ui.horizontal(|ui| {
-        let text = RichText::new(strings::SAVE_SCALE).color(t.on_accent);
-        if ui.add(Button::new(text).fill(t.accent)).clicked() {
+        if primary_ui(ui, strings::SAVE_SCALE, true).clicked() {
             let pixels_per_mm = width * ui.ctx().pixels_per_point() / CARD_MM[0];
             let pixels_per_mm = pixels_per_mm.clamp(*PIXELS_PER_MM.start(), *PIXELS_PER_MM.end());
             asked = Some(Command::Studies(StudiesCommand::SetScale(pixels_per_mm)));

@@ -7,6 +7,7 @@ use super::{Shown, StudiesPage};
 use crate::command::Command;
 use crate::command::studies::{SessionStart, StudiesCommand};
 use crate::look::motion::busy_ui;
+use crate::look::primary::primary_button;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::strings::studies as strings;
 use crate::studies::log_folder::new_log_folder;
@@ -90,10 +91,8 @@ fn start_ui(ui: &mut Ui, page: &mut StudiesPage) -> Option<Command> {
         return None;
     }
     let can_start = page.open.is_some() && page.problems.is_empty();
-    let text =
-        RichText::new(strings::START).strong().color(if can_start { t.on_accent } else { t.text_weak });
-    let button = Button::new(text).min_size(vec2(ui.available_width(), MAIN_HEIGHT));
-    let button = if can_start { button.fill(t.accent) } else { button };
+    let button = primary_button(t, RichText::new(strings::START).strong(), can_start);
+    let button = button.min_size(vec2(ui.available_width(), MAIN_HEIGHT));
     if ui.add_enabled(can_start, button).on_hover_text(strings::START_HELP).clicked() {
         return page.confirmed(SessionStart::Next);
     }

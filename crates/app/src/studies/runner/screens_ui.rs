@@ -12,6 +12,7 @@ use super::stimuli_ui::TARGET;
 use super::trial_ui::{Around, trial_ui};
 use super::{Runner, RunnerInput, Screen, Unsaved};
 use crate::look::icons::close_button;
+use crate::look::primary::primary_button;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::state::mouse_report::MouseReport;
 use crate::strings::studies as strings;
@@ -204,12 +205,10 @@ fn page_ui(ui: &mut Ui, page: &Page<'_>) -> Asked {
                 ui.horizontal(|ui| {
                     ui.spacing_mut().item_spacing.x = 2.0 * GAP;
                     for (index, (name, action)) in page.buttons.iter().enumerate() {
-                        let is_main = index == 0;
                         let text = RichText::new(*name).strong();
-                        let text = if is_main { text.color(t.on_accent) } else { text };
-                        let button = Button::new(text).min_size(vec2(3.0 * TARGET, TARGET));
-                        let button = if is_main { button.fill(t.accent) } else { button };
-                        if ui.add(button).clicked() {
+                        let button =
+                            if index == 0 { primary_button(t, text, true) } else { Button::new(text) };
+                        if ui.add(button.min_size(vec2(3.0 * TARGET, TARGET))).clicked() {
                             asked.ask(action.clone());
                         }
                     }

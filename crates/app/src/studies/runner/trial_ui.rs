@@ -14,6 +14,7 @@ use super::stage_ui::{StageState, stage_ui};
 use super::stimuli_ui::{TARGET, stimuli_ui};
 use super::tasks::task_ui;
 use super::trial_state::TrialState;
+use crate::look::primary::primary_button;
 use crate::look::theme::{GAP, GROUP_GAP, tokens};
 use crate::state::mouse_report::MouseReport;
 use crate::strings::studies as strings;
@@ -143,9 +144,8 @@ fn foot_ui(ui: &mut Ui, input: &RunnerInput<'_>, state: &TrialState, around: Aro
         if !state.draft.is_single_choice() {
             let can_answer = state.response().is_some();
             let text = RichText::new(strings::NEXT).strong();
-            let text = if can_answer { text.color(t.on_accent) } else { text };
-            let button = Button::new(text).min_size(vec2(150.0, TARGET));
-            let button = if can_answer { button.fill(t.accent) } else { button };
+            let button = if can_answer { primary_button(t, text, true) } else { Button::new(text) };
+            let button = button.min_size(vec2(150.0, TARGET));
             if ui.add_enabled(can_answer, button).on_hover_text(strings::NEXT_HELP).clicked() {
                 asked.ask(Action::Answer);
             }

@@ -36,6 +36,11 @@ fn analyzed(folder: &Path) -> StudyReport {
     analyze(&read_logs(&[folder.to_owned()]).unwrap(), None).unwrap()
 }
 
+fn assert_warned(report: &StudyReport, words: &str) {
+    let is_warned = report.warnings.iter().any(|warning| warning.contains(words));
+    assert!(is_warned, "{words}: {:?}", report.warnings);
+}
+
 /// Results of the first part of a simulated built-in plan, and what was hidden.
 fn results(id: &str, simulation: &Simulation) -> (Value, World) {
     let folder = tempfile::tempdir().unwrap();
@@ -232,11 +237,7 @@ fn damaged_logs_are_named_and_the_rest_counts() {
         "simulated-02.jsonl: the session is not complete",
         "the answers of a file are left out",
     ] {
-        assert!(
-            report.warnings.iter().any(|warning| warning.contains(words)),
-            "{words}: {:?}",
-            report.warnings
-        );
+        assert_warned(&report, words);
     }
     let error = read_logs(&[path("simulated-03")]).unwrap_err();
     assert!(format!("{error:#}").contains("simulated-03"), "{error:#}");

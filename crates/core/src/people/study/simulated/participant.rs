@@ -6,6 +6,7 @@ use crate::people::ratings::AdjectivePair;
 use crate::people::study::answer::Response;
 use crate::people::study::plan::{Design, Plan, Prompts, Varied};
 use crate::people::study::simulated::{Observers, SimulationError, World};
+use crate::people::study::touch::required_mm;
 use crate::people::study::trial::{Side, Task, Trial};
 
 /// A simulated participant; the same seed and number give the same answers to the same trials in the same order.
@@ -56,7 +57,7 @@ impl<'a> SimulatedParticipant<'a> {
 
     /// Distance that the part of a trial requires over each stimulus, in mm.
     pub(super) fn required_mm(&self, trial: &Trial) -> f64 {
-        self.plan.part(&trial.part).and_then(|part| part.touch_mm).unwrap_or(0.0)
+        self.plan.part(&trial.part).and_then(required_mm).unwrap_or(0.0)
     }
 
     /// Time to a response, in s.

@@ -7,7 +7,7 @@ use shagreen_core::people::study::analysis::limits::Limit;
 use shagreen_core::people::study::answer::{Measured, Motion, Response};
 use shagreen_core::people::study::setup::{OutputDevice, ScreenScale, Setup};
 
-use super::{analyzed, study, write};
+use super::{analyzed, assert_warned, study, write};
 use crate::study::analysis::{ParticipantKind, analyze, read_logs, read_logs_with, report_files};
 use crate::study::logs::log_path;
 use crate::study::session::{LogPlace, NewSession, StudySession};
@@ -33,7 +33,7 @@ fn answers_of_a_log_without_its_first_line_count() {
     assert_eq!((report.n_participants, report.n_complete), (4, 4));
     assert_eq!(report.json["results"], whole.json["results"]);
     let words = "simulated-03.jsonl, line 1: it is damaged; the answers are read with the plan of the study as those of participant 3";
-    assert!(report.warnings.iter().any(|warning| warning.contains(words)), "{:?}", report.warnings);
+    assert_warned(&report, words);
     // Alone, it needs the plan file.
     let error = format!("{:#}", read_logs(std::slice::from_ref(&path)).unwrap_err());
     assert!(error.contains("simulated-03.jsonl"), "{error}");
@@ -125,11 +125,7 @@ fn conditions_that_limit_the_answers_are_warnings_with_counts() {
         "answered without a touch (distance 0) (3 answers of 1 participant)",
         "the participants agreed to the placeholder of the consent text",
     ] {
-        assert!(
-            report.warnings.iter().any(|warning| warning.contains(words)),
-            "{words}: {:?}",
-            report.warnings
-        );
+        assert_warned(&report, words);
     }
     assert_eq!(report.json["limits"]["silent_output"]["answers"].as_u64(), Some(3));
     let files = report_files(&report, Path::new("out"));
