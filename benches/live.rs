@@ -169,9 +169,49 @@ fn main() {
         },
     );
 
+    by_order(&strokes);
     callback(&library);
     callback_with_layers(&library);
     reblending(&library, &planes);
+}
+
+/// Cost by predictor order, on the same stroke: the usual order at 1 kHz, the highest of earlier versions, and the orders
+/// above it, whose loops are longer.
+fn by_order(strokes: &Trajectory) {
+    for order in [20_u32, 32, 48, 64] {
+        let table = Table(vec![Plane::new(&resonant(order)).prepare()]);
+        let mut renderer = Renderer::new(1000.0, 7);
+        let _ = renderer.set_mix(&Mix::solo(0));
+        let mut tick = [0.0; MAX_TICK];
+        let n = strokes.0.len();
+        bench(
+            &format!("one texture of order {order}, 1 kHz, coefficients every 5 ms"),
+            n as f64,
+            "sample",
+            || {
+                for i in 0..n / renderer.tick_len() {
+                    renderer.tick(&table, strokes.0[i * 5], Place::default(), &mut tick);
+                    black_box(&tick);
+                }
+            },
+        );
+    }
+}
+
+/// A texture of this order with uneven frequencies, which change with speed and force.
+fn resonant(order: u32) -> TextureModel {
+    let node = |i: u32| {
+        let (speed, force) = (f64::from(i % 4), f64::from(i / 4));
+        let wave = |k: u32| 0.3 * (1.7 * f64::from(k) + 0.3 * speed + 0.2 * force).sin();
+        let frequency = |k: u32| std::f64::consts::PI * (f64::from(k) + wave(k)) / f64::from(order + 1);
+        GrainNode {
+            speed: MetersPerSecond(0.05 * (1.0 + speed)),
+            force: Newtons(0.5 * (1.0 + force)),
+            lsf: (1..=order).map(frequency).collect(),
+            level_mps2: 0.5 * (1.0 + speed),
+        }
+    };
+    TextureModel::new(Hertz(1000.0), (0..16).map(node).collect(), None).expect("no texture model")
 }
 
 /// An engine with an actuator, its equalizer and its limits, that plays one texture.

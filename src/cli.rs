@@ -10,24 +10,31 @@ mod actuator_source;
 mod axes_args;
 mod axis_name;
 mod backbone_source;
+mod batch;
 mod blending;
+mod bundle;
 mod calibrate;
 mod calibrate_args;
 mod calibrate_live;
 mod calibrate_recording;
 mod calibrate_result;
 mod calibrate_sweep;
+mod check;
 mod class_figures;
 mod codec_decode;
 mod codec_encode;
 mod devices;
 mod devices_pens;
+mod displays;
+mod doctor;
+mod doctor_facts;
 mod drawn_pictures;
 mod drawn_touches;
 mod evaluate;
 mod evaluate_axes;
 mod evaluate_codec;
 mod export;
+mod export_signals;
 mod fit_args;
 mod generate;
 mod generated_texture;
@@ -35,7 +42,9 @@ mod guide;
 mod hid_files;
 mod import;
 mod import_directional;
+mod import_file;
 mod import_hatt;
+mod import_models;
 mod import_recording;
 mod labelled_photos;
 mod latency;
@@ -53,6 +62,7 @@ mod model_folder;
 mod model_list;
 mod model_show;
 mod motion;
+mod out_name;
 mod output;
 mod own_folder;
 mod play;
@@ -66,14 +76,19 @@ mod project_new;
 mod project_show;
 mod prompt_summary;
 mod quality;
+mod quality_fit;
+mod quality_model_args;
 mod quantity;
 mod receiver;
 mod recording_answers;
 mod recording_source;
 mod render;
+mod reproduce;
 mod rig;
+mod sample_args;
 mod seen_json;
 mod shape_args;
+mod signal_args;
 mod signal_source;
 mod space_build;
 mod space_judgments;
@@ -86,6 +101,7 @@ mod spatial_reconstruct;
 mod stroke;
 mod stroke_args;
 mod stroke_recordings;
+mod stroke_signal;
 mod study;
 mod sweep_checks;
 mod target;
@@ -127,14 +143,15 @@ enum Command {
     /// Creates and shows projects, and lists the example projects.
     #[command(subcommand)]
     Project(ProjectCommand),
-    /// Imports texture models and recordings from other programs into a library.
-    #[command(subcommand)]
-    Import(ImportCommand),
+    Import(Box<import_file::ImportArgs>),
     Render(render::Args),
     /// Computes the power spectral density of a texture, or makes a texture that follows a path through the space.
     #[command(subcommand)]
     Texture(TextureCommand),
+    Check(check::Args),
     Export(export::Args),
+    Batch(batch::Args),
+    Bundle(bundle::Args),
     /// Builds a space of textures from ratings, with or without sorts, writes questionnaires, simulates raters, or reads
     /// positions from a table.
     #[command(subcommand)]
@@ -145,7 +162,9 @@ enum Command {
     /// Measures the errors of interpolation and codec on signals, without human participants.
     #[command(subcommand)]
     Evaluate(EvaluateCommand),
+    Reproduce(Box<reproduce::Args>),
     Devices(devices::Args),
+    Doctor(doctor::Args),
     Play(play::Args),
     Latency(latency::Args),
     /// Lists, shows and exports actuator profiles.
@@ -229,13 +248,6 @@ enum ProjectCommand {
 }
 
 #[derive(clap::Subcommand)]
-enum ImportCommand {
-    Directional(import_directional::Args),
-    Hatt(import_hatt::Args),
-    Recording(import_recording::Args),
-}
-
-#[derive(clap::Subcommand)]
 enum SpaceCommand {
     Build(Box<space_build::Args>),
     Panel(space_panel::Args),
@@ -285,10 +297,11 @@ pub(crate) fn run(open_window: OpenWindow) -> ExitCode {
         Some(Command::Project(ProjectCommand::Gallery(args))) => project_gallery::run(args),
         Some(Command::Project(ProjectCommand::New(args))) => project_new::run(args),
         Some(Command::Project(ProjectCommand::Show(args))) => project_show::run(args),
+        Some(Command::Check(args)) => check::run(args),
         Some(Command::Export(args)) => export::run(args),
-        Some(Command::Import(ImportCommand::Directional(args))) => import_directional::run(args),
-        Some(Command::Import(ImportCommand::Hatt(args))) => import_hatt::run(args),
-        Some(Command::Import(ImportCommand::Recording(args))) => import_recording::run(args),
+        Some(Command::Batch(args)) => batch::run(args),
+        Some(Command::Bundle(args)) => bundle::run(args),
+        Some(Command::Import(args)) => import_file::run(args),
         Some(Command::Render(args)) => render::run(args),
         Some(Command::Space(SpaceCommand::Build(args))) => space_build::run(args),
         Some(Command::Space(SpaceCommand::Panel(args))) => space_panel::run(args),
@@ -297,9 +310,14 @@ pub(crate) fn run(open_window: OpenWindow) -> ExitCode {
         Some(Command::Texture(TextureCommand::Psd(args))) => texture_psd::run(args),
         Some(Command::Evaluate(EvaluateCommand::LeaveOneOut(args))) => evaluate::run(args),
         Some(Command::Evaluate(EvaluateCommand::Axes(args))) => evaluate_axes::run(args),
+        Some(Command::Reproduce(args)) => reproduce::run(args),
         Some(Command::Texture(TextureCommand::Path(args))) => texture_path::run(args),
         Some(Command::Study(command)) => study::run(command),
         Some(Command::Devices(args)) => devices::run(args),
+        Some(Command::Doctor(args)) => {
+            doctor::run(args);
+            Ok(())
+        }
         Some(Command::Play(args)) => play::run(args),
         Some(Command::Latency(args)) => latency::run(args),
         Some(Command::Actuator(ActuatorCommand::List(args))) => actuator_list::run(args),

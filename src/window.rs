@@ -12,8 +12,17 @@ use crate::cli::window::{FrameTimes, WindowRequest};
 /// # Errors
 /// The window cannot be opened, or the library's positions cannot be triangulated.
 pub(crate) fn open(request: WindowRequest) -> anyhow::Result<FrameTimes> {
-    let WindowRequest { project, file, take, output, folders, simulation_seed, measured_frames, started } =
-        request;
+    let WindowRequest {
+        project,
+        file,
+        take,
+        output,
+        folders,
+        simulation_seed,
+        measured_frames,
+        is_on_x11,
+        started,
+    } = request;
     let output = output.map_or(OutputChoice::SystemDefault, OutputChoice::Id);
     let keeping = StoragePaths {
         recovery: folders.recovery,
@@ -24,7 +33,7 @@ pub(crate) fn open(request: WindowRequest) -> anyhow::Result<FrameTimes> {
     };
     let file = file.map(|(path, sha256)| DocumentFile { path, sha256: Some(sha256) });
     let begin = Begin { project, file, take, output, keeping, simulation_seed };
-    let times = shagreen_app::run(Start { begin, measured_frames, started })?;
+    let times = shagreen_app::run(Start { begin, measured_frames, is_on_x11, started })?;
     Ok(FrameTimes {
         first_frame_secs: times.first_frame_secs,
         frame_secs: times.frame_secs,

@@ -108,6 +108,11 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             let (carrier_hz, channel) = (display.carrier.0, display.channel);
             lines.push(format!("Friction display: carrier of {carrier_hz} Hz on channel {channel}"));
         }
+        if !actuator.channels.is_empty() {
+            let channels =
+                actuator.channels.iter().map(|channel| format!("{} {}", channel.number, channel.name));
+            lines.push(format!("Channels: {}", channels.collect::<Vec<_>>().join(", ")));
+        }
         lines.push(actuator.source.clone());
         lines.join("\n")
     });

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
-use shagreen_core::actuator::Actuator;
+use shagreen_core::actuator::{Actuator, NamedChannel};
 use shagreen_core::units::Kilograms;
 use shagreen_formats::actuator_toml::{built_in_actuators, read_actuator};
 use shagreen_formats::bounded_file::FileKind;
@@ -37,6 +37,7 @@ pub(crate) fn load_actuator(name: &str, load_g: Option<f64>) -> anyhow::Result<A
 /// Returns the JSON description of an actuator.
 pub(crate) fn actuator_json(actuator: &Actuator) -> Value {
     let response = actuator.response().ok();
+    let channel = |channel: &NamedChannel| json!({"number": channel.number, "name": channel.name});
     json!({
         "id": actuator.id,
         "name": actuator.name,
@@ -49,6 +50,7 @@ pub(crate) fn actuator_json(actuator: &Actuator) -> Value {
         "gain": response.map(|r| r.gain_mps2_per_v()),
         "lowest_hz": actuator.lowest.0,
         "fit_error_db": actuator.calibrated.map(|c| c.fit_error_db),
+        "channels": actuator.channels.iter().map(channel).collect::<Vec<_>>(),
         "friction": actuator.friction.map(|f| json!({"carrier_hz": f.carrier.0, "channel": f.channel})),
     })
 }

@@ -1,13 +1,12 @@
 //! Interpolation options: mode, weights, pinned textures.
 
-use anyhow::{Context as _, bail};
 use shagreen_core::space::authoring::{Blending, Outside, Weights};
 use shagreen_core::texture::blend::Mode;
 use shagreen_formats::library::Library;
 
-use crate::cli::output;
+use crate::cli::output::Printed;
 use crate::cli::words::words;
-use shagreen_studio::near_names::unknown_texture;
+use shagreen_studio::blend_options::BlendOptions;
 
 /// Options of the interpolation.
 #[derive(clap::Args)]
@@ -39,38 +38,12 @@ impl BlendArgs {
 
     /// Returns the interpolation options that the arguments specify.
     pub(crate) fn blending(&self, library: &Library) -> anyhow::Result<Blending> {
-        let index = |id: &String| {
-            let index = library.index_of(id).with_context(|| unknown_texture(library, id))?;
-            if library.textures[index].place.is_none() {
-                bail!(
-                    "\"{id}\" has no position in the space and cannot be pinned; assign one with `shagreen space place`"
-                );
-            }
-            Ok(index)
-        };
-        let blending = Blending {
+        let options = BlendOptions {
             mode: self.blend,
             weights: if self.natural { Weights::Natural } else { Weights::default() },
             outside: if self.extrapolate { Outside::Extrapolated } else { Outside::default() },
-            locked: self.lock.iter().map(index).collect::<anyhow::Result<_>>()?,
+            pinned: &self.lock,
         };
-        blending.check_in(library.axis_names().len())?;
-        warn_of_hidden_locks(library, &blending.locked);
-        Ok(blending)
-    }
-}
-
-/// Warns of pinned textures that share a position: the field passes only through the first.
-fn warn_of_hidden_locks(library: &Library, locked: &[usize]) {
-    for (i, later) in locked.iter().enumerate() {
-        let at = library.textures[*later].at();
-        let first =
-            locked[..i].iter().find(|first| **first != *later && library.textures[**first].at() == at);
-        if let Some(first) = first {
-            let [first, later] = [first, later].map(|texture| library.textures[*texture].id.as_str());
-            output::warn(&format!(
-                "\"{first}\" and \"{later}\" have the same position: the field passes only through \"{first}\"; pin only one of them"
-            ));
-        }
+        options.in_library(library, &Printed)
     }
 }

@@ -11,6 +11,7 @@ use shagreen_device::stylus::{StylusInfo, StylusKind, StylusList, list_styluses}
 use crate::cli::devices_pens::{decode, list_descriptors};
 use crate::cli::hid_files::{meters, size_mm};
 use crate::cli::output;
+use shagreen_studio::pen_backends::{access_id, backend_id, backend_name, provided};
 
 /// Lists pens, outputs, audio inputs and serial ports without opening them, or decodes HID descriptors and reports of
 /// pens.
@@ -70,7 +71,7 @@ fn list(as_json: bool) {
     });
     output::print(as_json, &result, || {
         let mut lines = vec!["Pens and mouse:".to_owned()];
-        lines.extend(styluses.iter().map(|stylus| line(&stylus.id, &stylus.name)));
+        lines.extend(styluses.iter().flat_map(stylus_lines));
         lines.push("Outputs (play --output ID):".to_owned());
         lines.extend(outputs.iter().map(|output| line(&output.id, &output.name)));
         lines.push("Audio inputs (calibrate and latency --input ID):".to_owned());
@@ -85,6 +86,14 @@ fn line(id: &str, name: &str) -> String {
     format!("  {id}  {name}")
 }
 
+/// The stylus with its backend and what that provides, and what to do if it may not be read.
+fn stylus_lines(stylus: &StylusInfo) -> Vec<String> {
+    let (backend, provided) = (backend_name(stylus.backend), provided(&stylus.provides));
+    let mut lines = vec![format!("{} ({backend}: {provided})", line(&stylus.id, &stylus.name))];
+    lines.extend(stylus.advice.iter().flat_map(|advice| advice.lines()).map(|line| format!("    {line}")));
+    lines
+}
+
 fn input_json(input: &InputInfo) -> Value {
     json!({"id": input.id, "name": input.name, "monitor_of": input.monitor_of})
 }
@@ -97,12 +106,17 @@ fn stylus_json(stylus: &StylusInfo) -> Value {
         "pressure": stylus.has_pressure,
         "vendor_id": stylus.product.map(|(vendor_id, _)| vendor_id),
         "product_id": stylus.product.map(|(_, product_id)| product_id),
+        "backend": backend_id(stylus.backend),
+        "provides": provided(&stylus.provides),
+        "access": access_id(stylus.access),
+        "advice": stylus.advice,
     })
 }
 
 fn stylus_kind(kind: StylusKind) -> &'static str {
     match kind {
         StylusKind::Mouse => "mouse",
+        StylusKind::Window => "window",
         StylusKind::Pen => "pen",
         _ => "other",
     }
@@ -113,6 +127,7 @@ fn output_kind(kind: OutputKind) -> &'static str {
         OutputKind::Null => "null",
         OutputKind::Audio => "audio",
         OutputKind::Serial => "serial",
+        OutputKind::HapticPen => "haptic_pen",
         _ => "other",
     }
 }

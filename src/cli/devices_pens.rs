@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use serde_json::{Value, json};
+use shagreen_device::haptic_pen::controller::HapticController;
 use shagreen_device::hid::pen::{PenAxis, PenDecoder, PenFormat};
 use shagreen_device::hid::tracker::{PenTracker, TrackedSample, TrackerOptions};
 use shagreen_device::kinematics::SpeedFilter;
@@ -50,7 +51,7 @@ fn broken_json(file: &Path, error: &anyhow::Error) -> Value {
         error.chain().map(ToString::to_string).filter(|c| *c != file::in_file(file)).collect();
     json!({
         "file": file.display().to_string(), "name": null, "pen": false, "report_id": null, "x": null, "y": null,
-        "pressure": null, "tilt": false, "reports": [], "warnings": [], "error": causes.join(": "),
+        "pressure": null, "tilt": false, "reports": [], "haptic": null, "warnings": [], "error": causes.join(": "),
     })
 }
 
@@ -67,6 +68,7 @@ fn declared_json(file: &Path, device: &DeclaredDevice) -> Value {
     entry["name"] = json!(device.name);
     entry["pen"] = json!(best.is_some());
     entry["reports"] = json!(reports);
+    entry["haptic"] = json!(HapticController::of_descriptor(&device.descriptor).as_ref().map(haptic_json));
     entry["warnings"] = json!(warnings);
     entry["error"] = Value::Null;
     entry
@@ -100,13 +102,27 @@ fn format_json(format: &PenFormat) -> Value {
     })
 }
 
+/// The haptic controller of a pen. A pen that lists its waveforms in a report is not asked for them.
+fn haptic_json(controller: &HapticController) -> Value {
+    let waveforms: Vec<&str> =
+        controller.waveforms(&[]).iter().map(|offered| offered.waveform.name()).collect();
+    json!({
+        "entries": controller.n_entries(),
+        "waveforms": waveforms,
+        "intensity": controller.has_intensity(),
+        "automatic": controller.is_automatic(),
+    })
+}
+
 fn in_words(entry: &Value) -> String {
     let file = entry["file"].as_str().unwrap_or_default();
     if let Some(error) = entry["error"].as_str() {
         return format!("{file}: {error}");
     }
+    let haptic =
+        entry["haptic"]["entries"].as_u64().map(|n| format!("haptic output with up to {n} waveforms"));
     if entry["pen"] == json!(false) {
-        return format!("{file}: not a pen");
+        return format!("{file}: {}", haptic.as_deref().unwrap_or("not a pen"));
     }
     let size = match (entry["x"]["mm"].as_f64(), entry["y"]["mm"].as_f64()) {
         (Some(width), Some(height)) if entry["size_doubtful"] == json!(true) => {
@@ -121,7 +137,8 @@ fn in_words(entry: &Value) -> String {
     });
     let id = entry["report_id"].as_u64().map_or("reports without id".to_owned(), |id| format!("report {id}"));
     let tilt = if entry["tilt"] == json!(true) { ", tilt" } else { "" };
-    format!("{file}: pen, {id}, {size}, {levels}{tilt}")
+    let haptic = haptic.map_or(String::new(), |haptic| format!(", {haptic}"));
+    format!("{file}: pen, {id}, {size}, {levels}{tilt}{haptic}")
 }
 
 /// Decodes the reports of a file with the descriptor of another file or its own. `files` has one or two elements.

@@ -2,15 +2,19 @@
 
 use std::path::{Path, PathBuf};
 
-use shagreen_core::space::SpacePoint;
+use anyhow::Context as _;
+use serde_json::json;
+use shagreen_core::maths::shard::Shard;
 use shagreen_core::space::authoring::Blending;
-use shagreen_core::space::leave_one_out::{
-    LeaveOneOut, LeaveOneOutError, Method, Plan, SignalPlan, Summary, leave_one_out,
-};
-use shagreen_core::texture::TextureModel;
+use shagreen_core::space::leave_one_out::{LeaveOneOut, Method, Plan, SignalPlan, Summary, join_parts};
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::words::counted;
+use shagreen_formats::atomic;
 use shagreen_formats::axes_report::signal_axes_note;
+use shagreen_formats::bounded_file::FileKind;
+use shagreen_formats::evaluation_part::{
+    evaluation_inputs, is_evaluation_part, read_evaluation_part, write_evaluation_part,
+};
 use shagreen_formats::evaluation_report::{
     TABLE, best, evaluation_figures, evaluation_report, evaluation_source, figure_name, method_id,
     position_caveat,
@@ -19,12 +23,14 @@ use shagreen_formats::library::{Library, USUAL_AXES};
 
 use crate::cli::axes_args::AxesArgs;
 use crate::cli::library_args::LibraryArgs;
-use crate::cli::output;
+use crate::cli::output::{self, Printed};
 use crate::cli::progress::Progress;
 use crate::cli::quantity::count;
 use crate::cli::quantity::within;
+use shagreen_studio::evaluation::{SIGNAL_SECS, evaluate_interpolation, evaluate_part, supported};
 use shagreen_studio::figure_files::{check_figures, figure_files, write_together};
 use shagreen_studio::file;
+use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
 /// Removes each texture in turn, interpolates a texture at its position from the others, and compares the spectra of
 /// the two.
@@ -60,6 +66,16 @@ pub(crate) struct Args {
     /// Random seed of the noise; the same seed repeats all signals exactly.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Evaluate only a part of the textures, such as 2/4, and write its results to the file --part, to divide the work among
+    /// computers. --merge joins the parts.
+    #[arg(long, value_name = "I/N", requires = "part", conflicts_with_all = ["figures", "merge"])]
+    shard: Option<Shard>,
+    /// File to write with --shard.
+    #[arg(long, value_name = "PART.json", requires = "shard")]
+    part: Option<PathBuf>,
+    /// Join these parts instead of evaluating; give all of them, and the library and options with which they were made.
+    #[arg(long, value_name = "PART.json", num_args = 1..)]
+    merge: Vec<PathBuf>,
     /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
@@ -81,9 +97,6 @@ fn modes_parser() -> impl clap::builder::TypedValueParser<Value = Modes> {
         .map(|id| Modes(Mode::from_id(&id).map_or_else(|| Mode::ALL.to_vec(), |mode| vec![mode])))
 }
 
-/// Signal duration limits, in s. The minimum gives three spectral windows; the maximum limits computing time.
-const SIGNAL_SECS: std::ops::RangeInclusive<f64> = 4.0..=600.0;
-
 fn signal_secs(text: &str) -> Result<f64, String> {
     within(text, &SIGNAL_SECS, "seconds")
 }
@@ -96,11 +109,18 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         check_figures(folder, &names, &[args.library.path()])?;
     }
     let library = args.axes.place(args.library.load()?, None, &[])?;
-    let blendings = supported(blendings, library.axis_names().len());
+    let blendings = supported(blendings, library.axis_names().len(), &Printed);
     let n_textures = args.signals.unwrap_or(usize::MAX);
     let signals = SignalPlan { n_textures, seconds: args.seconds, seed: args.seed };
     let plan = Plan { blendings, signals: (n_textures > 0).then_some(signals) };
-    let measured = measure(&library, &plan).map_err(|error| explained(error, &library, &args.library))?;
+    if let (Some(shard), Some(path)) = (args.shard, &args.part) {
+        return write_part(args, &library, &plan, (shard, path));
+    }
+    let measured = if args.merge.is_empty() {
+        watched(&args.library, |on_progress| evaluate_interpolation(&library, &plan, on_progress))?
+    } else {
+        merged(&args.merge, &library, &plan)?
+    };
     let beyond = measured.textures.iter().filter(|left| !left.is_within_measured).count();
     if beyond > 0 {
         output::warn(&format!(
@@ -122,29 +142,50 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Leaves out the modes that do not interpolate in a space with this number of axes, and notes them. A single mode stays: the
-/// evaluation then states why it fails.
-fn supported(blendings: Vec<Blending>, n_axes: usize) -> Vec<Blending> {
-    if blendings.len() == 1 {
-        return blendings;
-    }
-    let (supported, others): (Vec<Blending>, Vec<Blending>) =
-        blendings.into_iter().partition(|blending| blending.check_in(n_axes).is_ok());
-    if !others.is_empty() {
-        let ids: Vec<&str> = others.iter().map(|blending| blending.mode.id()).collect();
-        output::note(&format!(
-            "the modes {} are left out: they interpolate in triangles, which a space with {n_axes} axes does not have",
-            ids.join(", ")
-        ));
-    }
-    supported
+/// Evaluates a part of the textures and writes it to a file.
+fn write_part(
+    args: &Args,
+    library: &Library,
+    plan: &Plan,
+    (shard, path): (Shard, &Path),
+) -> anyhow::Result<()> {
+    refuse_inputs(&[path], &[args.library.path()])?;
+    refuse_foreign(path, "the part of the evaluation", is_evaluation_part)?;
+    atomic::check_all(&[path])?;
+    let part = watched(&args.library, |on_progress| evaluate_part(library, plan, shard, on_progress))?;
+    let inputs = evaluation_inputs(library, plan, output::CREATED_BY);
+    atomic::write(path, &write_evaluation_part(&part, &inputs))?;
+    let n = part.textures.len();
+    let result = json!({
+        "part": path.display().to_string(),
+        "shard": shard.to_string(),
+        "n": n,
+        "of": part.n_evaluated,
+    });
+    output::print(args.json, &result, || {
+        format!("Evaluated {n} of {}: {}", counted(part.n_evaluated, "texture"), path.display())
+    });
+    Ok(())
 }
 
-fn measure(library: &Library, plan: &Plan) -> Result<LeaveOneOut, LeaveOneOutError> {
-    let textures: Vec<(&TextureModel, Option<SpacePoint>)> =
-        library.textures.iter().map(|texture| (&texture.model, texture.at())).collect();
+/// Joins the parts in these files.
+fn merged(paths: &[PathBuf], library: &Library, plan: &Plan) -> anyhow::Result<LeaveOneOut> {
+    let inputs = evaluation_inputs(library, plan, output::CREATED_BY);
+    let part = |path: &PathBuf| {
+        let bytes = file::read_file(path, FileKind::Document)?;
+        read_evaluation_part(&bytes, &inputs, library.textures.len()).with_context(|| file::in_file(path))
+    };
+    let parts = paths.iter().map(part).collect::<anyhow::Result<Vec<_>>>()?;
+    Ok(join_parts(plan, parts)?)
+}
+
+/// Does work that reports the number of finished textures and their total, and shows its progress.
+fn watched<T>(
+    args: &LibraryArgs,
+    work: impl FnOnce(&mut dyn FnMut(usize, usize) -> bool) -> anyhow::Result<T>,
+) -> anyhow::Result<T> {
     let mut progress: Option<Progress> = None;
-    let measured = leave_one_out(&textures, plan, &mut |n_done, n| {
+    let done = work(&mut |n_done, n| {
         let bar = progress.get_or_insert_with(|| Progress::new("evaluating the textures", n));
         if n_done > 0 {
             bar.step();
@@ -154,20 +195,10 @@ fn measure(library: &Library, plan: &Plan) -> Result<LeaveOneOut, LeaveOneOutErr
     if let Some(progress) = progress {
         progress.finish();
     }
-    measured
-}
-
-/// Returns the error with the texture's id and the file, if one of them is the cause.
-fn explained(error: LeaveOneOutError, library: &Library, args: &LibraryArgs) -> anyhow::Error {
-    let id = error.texture().map(|texture| library.textures[texture].id.clone());
-    let mut error = anyhow::Error::from(error);
-    if let Some(id) = id {
-        error = error.context(format!("the evaluation failed because of the texture \"{id}\""));
-    }
-    match args.path() {
+    done.map_err(|error| match args.path() {
         Some(path) => error.context(file::in_file(path)),
         None => error,
-    }
+    })
 }
 
 fn table(library: &Library, measured: &LeaveOneOut, figures: Option<&Path>) -> String {

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use anyhow::{Context as _, ensure};
 use serde_json::json;
 use shagreen_core::dsp::spectrum::rms;
+use shagreen_core::maths::shard::Shard;
 use shagreen_core::maths::statistics::mean;
 use shagreen_core::signals::codec::bitrate::Bitrate;
 use shagreen_core::signals::codec::books::Codebooks;
@@ -16,12 +17,11 @@ use shagreen_core::units::Contact;
 use shagreen_core::words::counted;
 use shagreen_formats::codec_tables::built_in_codebooks;
 use shagreen_formats::library::{Library, TextureEntry};
-use shagreen_formats::quality_model::built_in_quality_model;
-use shagreen_formats::thresholds::ThresholdKind;
 
 use crate::cli::library_args::LibraryArgs;
 use crate::cli::output;
 use crate::cli::progress::Progress;
+use crate::cli::quality_model_args::{ModelArgs, model_json};
 use crate::cli::quantity::{positive, within};
 
 /// Encodes every texture of a library at the codec's five bit rates and measures the loss: the signal-to-noise ratio,
@@ -33,6 +33,8 @@ use crate::cli::quantity::{positive, within};
 pub(crate) struct Args {
     #[command(flatten)]
     library: LibraryArgs,
+    #[command(flatten)]
+    model: ModelArgs,
     /// Tip speed, in mm/s.
     #[arg(long, value_name = "V", value_parser = positive, default_value = "100")]
     speed: f64,
@@ -45,6 +47,10 @@ pub(crate) struct Args {
     /// Random seed of the noise; the same seed repeats all signals exactly.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Part of the textures to measure, such as 2/4, to divide the work among computers. The rows of all parts are those of the
+    /// whole; the means are those of the part.
+    #[arg(long, value_name = "I/N", default_value_t = Shard::WHOLE, hide_default_value = true)]
+    shard: Shard,
     /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
@@ -76,15 +82,29 @@ struct Bench {
 
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let library = args.library.load()?;
+    let model = args.model.load()?;
+    let of_model = model_json(&model);
+    let by = model
+        .sha256
+        .as_ref()
+        .map(|_| format!("d' is predicted by the model {} ({})", model.name, model.origin()));
     let bench = Bench {
         books: Arc::new(built_in_codebooks()?),
-        meter: QualityMeter::new(PAPER_RATE, &ThresholdKind::default().read()?)?,
-        model: built_in_quality_model()?,
+        meter: QualityMeter::new(PAPER_RATE, &model.threshold().read()?)?,
+        model: model.file.model,
     };
     let is_known = args.library.path().is_none();
-    let progress = Progress::new("encoding the textures", library.textures.len());
-    let mut rows = Vec::with_capacity(library.textures.len());
-    for (index, texture) in library.textures.iter().enumerate() {
+    let indices: Vec<usize> = args.shard.indices(library.textures.len()).collect();
+    ensure!(
+        !indices.is_empty(),
+        "the part {} has none of the {}; use fewer parts",
+        args.shard,
+        counted(library.textures.len(), "texture")
+    );
+    let progress = Progress::new("encoding the textures", indices.len());
+    let mut rows = Vec::with_capacity(indices.len());
+    for index in indices {
+        let texture = &library.textures[index];
         let held_out = is_known.then(|| is_held_out(index));
         let row = bench.measure(texture, held_out, args, index);
         rows.push(row.with_context(|| format!("the texture \"{}\" cannot be measured", texture.id))?);
@@ -107,10 +127,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         .collect();
     let answer = json!({
         "measured_on": "signals",
+        "model": of_model,
         "kbps": Bitrate::ALL.map(Bitrate::kbps),
         "speed_mm_per_s": args.speed,
         "force_n": args.force,
         "seconds": args.seconds,
+        "shard": args.shard.to_string(),
         "n": rows.len(),
         "snr_db_mean": means(&rows, |row| row.snr_db),
         "level_db_mean": means(&rows, |row| row.level_db),
@@ -119,7 +141,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "held_out_dprime_mean": of_held_out(|row| row.d_prime),
         "textures": textures,
     });
-    output::print(args.json, &answer, || table(&library, &rows));
+    output::print(args.json, &answer, || table(&library, &rows, by));
     Ok(())
 }
 
@@ -151,7 +173,7 @@ fn means<'a, R: Borrow<Row<'a>>>(rows: &[R], of: impl Fn(&Row<'a>) -> [f64; 5]) 
     std::array::from_fn(|i| mean(&rows.iter().map(|row| of(row.borrow())[i]).collect::<Vec<f64>>()))
 }
 
-fn table(library: &Library, rows: &[Row<'_>]) -> String {
+fn table(library: &Library, rows: &[Row<'_>], by: Option<String>) -> String {
     let five = |numbers: &[f64; 5]| numbers.map(|x| format!("{x:6.2}")).join("");
     let line = |name: &str, snr: &[f64; 5], d_prime: &[f64; 5]| {
         format!("{name:24} {}   {}", five(snr), five(d_prime))
@@ -181,5 +203,6 @@ fn table(library: &Library, rows: &[Row<'_>]) -> String {
         "mean level",
         five(&means(rows, |row| row.level_db))
     ));
+    lines.extend(by);
     lines.join("\n")
 }

@@ -13,7 +13,8 @@ pub(crate) struct FitArgs {
     /// Model rate (sample rate of the model), in Hz. Default: selected from the bandwidth of the recordings.
     #[arg(long, value_name = "HZ", value_parser = parse_rate)]
     rate: Option<f64>,
-    /// Model order (order of the linear predictor). Default: selected by the Bayesian information criterion.
+    /// Model order (order of the linear predictor). Default: the lowest order that predicts held-out segments about as well as
+    /// the best one; in recordings too short for that, selected by the Bayesian information criterion.
     #[arg(long, value_parser = clap::value_parser!(u8).range(1..=MAX_ORDER as i64))]
     order: Option<u8>,
     /// Interpolation of the model between the measured speeds and forces.

@@ -9,6 +9,7 @@ use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, read_library, write_library};
 use shagreen_formats::locked_update::update;
 
+use crate::cli::out_name::refuse_dash;
 use crate::cli::output;
 use shagreen_studio::file;
 use shagreen_studio::replace::refuse_inputs;
@@ -45,6 +46,7 @@ impl<'a> Outcome<'a> {
     /// # Errors
     /// The library would overwrite an input, or the file exists and is not a library.
     pub(crate) fn new(destination: &'a Destination, inputs: &[PathBuf]) -> anyhow::Result<Self> {
+        refuse_dash(&destination.out)?;
         let inputs: Vec<Option<&Path>> = inputs.iter().map(|path| Some(path.as_path())).collect();
         refuse_inputs(&[&destination.out], &inputs)?;
         if destination.out.is_dir() {
@@ -187,6 +189,7 @@ pub(crate) fn files_in(folder: &Path, endings: &[&str]) -> anyhow::Result<Vec<Pa
 /// Reads the library at `path`, or creates a new one.
 fn existing(path: &Path) -> anyhow::Result<Library> {
     if !path.exists() {
+        file::check_ending("a library", "json", path)?;
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
             bail!(

@@ -2,17 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, bail};
+use anyhow::{Context as _, bail, ensure};
 use serde_json::{Value, json};
+use shagreen_core::actuator::Drive;
 use shagreen_core::recording::Recording;
-use shagreen_core::recording::fit::{self, FitReport, Fitted, MODEL_RATES_HZ};
+use shagreen_core::recording::fit::{self, FitReport, Fitted, HeldOut, MODEL_RATES_HZ};
+use shagreen_formats::acf::{AcfV1, acf, read_acf};
 use shagreen_formats::atomic;
+use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::fit_report::{fit_report_csv, fit_report_svg, is_fit_report_csv, is_fit_report_svg};
 use shagreen_formats::library::{TextureEntry, name_from_file};
 use shagreen_formats::recording::{Ask, ColumnMap};
 
+use crate::cli::actuator_source::load_actuator;
 use crate::cli::fit_args::{FitArgs, tap_json, tap_text};
 use crate::cli::import::{Destination, Outcome, files_in};
+use crate::cli::output;
 use crate::cli::progress::Progress;
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::read_recording_file;
@@ -20,13 +25,17 @@ use shagreen_studio::file::{self, file_name};
 use shagreen_studio::import::RECORDING_ENDINGS;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
-/// Fits texture models to recorded strokes: acceleration, speed and force, as WAV files or tables.
+/// Fits texture models to recorded strokes: acceleration, speed and force, as WAV files or tables. Haptic clips (.haptic, AHAP,
+/// Macaron, and tables of time, amplitude and frequency) are made into signals first.
 ///
 /// If a file does not state a property, such as the unit of acceleration, the command infers it from the data where
 /// possible and prints a warning. Otherwise it rejects the file until you state the property with --set or --map.
 #[derive(clap::Args)]
+// `shagreen import FILE` has these arguments only if the group has one. The derived group is empty, because it ignores structs
+// with flattened fields.
+#[group(args = ["files"])]
 pub(crate) struct Args {
-    /// Recordings: .wav, or tables such as .csv and .txt, or folders of them. Each file becomes a texture.
+    /// Recordings: .wav, tables such as .csv and .txt, haptic clips, or folders of them. Each file becomes a texture.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
     #[command(flatten)]
@@ -38,8 +47,12 @@ pub(crate) struct Args {
     /// the column map. Can be given several times.
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_answer)]
     answers: Vec<(Ask, String)>,
+    /// Actuator for which haptic clips were made: a built-in one by its id, a profile file, or a configuration (.acf).
+    /// Frequencies from 0 to 1 in clips are mapped to its band. Default: 60 to 300 Hz, or frequency_range of --set and --map.
+    #[arg(long, value_name = "ID_OR_FILE")]
+    actuator: Option<String>,
     /// Treat all files as strokes on one texture with this name.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", value_parser = texture_name)]
     name: Option<String>,
     #[command(flatten)]
     fit: FitArgs,
@@ -51,6 +64,62 @@ pub(crate) struct Args {
     report: Option<PathBuf>,
 }
 
+impl Args {
+    /// Returns the named files and folders.
+    pub(crate) fn files(&self) -> &[PathBuf] {
+        &self.files
+    }
+
+    /// Returns the library to write.
+    pub(crate) fn destination(&self) -> &Destination {
+        &self.destination
+    }
+
+    /// Returns the first option that was given and has no effect on texture models.
+    pub(crate) fn only_for_recordings(&self) -> Option<&'static str> {
+        let options = [
+            ("--map", self.map.is_some()),
+            ("--set", !self.answers.is_empty()),
+            ("--actuator", self.actuator.is_some()),
+            ("--name", self.name.is_some()),
+            ("--licence", !self.licence.is_empty()),
+            ("--report", self.report.is_some()),
+        ];
+        options.into_iter().find(|(_, is_given)| *is_given).map(|(option, _)| option)
+    }
+
+    /// Returns what is known about the files.
+    fn column_map(&self) -> anyhow::Result<ColumnMap> {
+        let mut map = map_of(self.map.as_deref(), &self.answers)?;
+        if let (Some(actuator), None) = (&self.actuator, map.frequency_range_hz) {
+            map.frequency_range_hz = Some(band_hz(actuator)?);
+        }
+        Ok(map)
+    }
+}
+
+/// Parses the name of a texture, which must not be blank.
+fn texture_name(text: &str) -> Result<String, String> {
+    if text.trim().is_empty() { Err("a texture needs a name".to_owned()) } else { Ok(text.to_owned()) }
+}
+
+/// Returns the frequencies to which a player of clips on this actuator maps 0 and 1, in Hz.
+fn band_hz(actuator: &str) -> anyhow::Result<[f64; 2]> {
+    let path = Path::new(actuator);
+    let configuration: AcfV1 = if file::ending_of(path) == "acf" {
+        let bytes = file::read_file(path, FileKind::Small)?;
+        read_acf(&bytes).with_context(|| file::in_file(path))?
+    } else {
+        acf(&load_actuator(actuator, None)?, Drive::ASSUMED, output::CREATED_BY)?
+    };
+    let [low, high] = [configuration.continuous.frequency_min, configuration.continuous.frequency_max];
+    ensure!(
+        low >= 0.0 && high > low && high.is_finite(),
+        "the actuator plays frequencies from {low} to {high} Hz, which is no band; state one with --set frequency_range=60-300"
+    );
+    Ok([low, high])
+}
+
 /// A texture to fit, and its files.
 struct Job<'a> {
     name: String,
@@ -60,7 +129,7 @@ struct Job<'a> {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let paths = recording_files(&args.files)?;
     let mut outcome = Outcome::new(&args.destination, &paths)?;
-    let map = map_of(args.map.as_deref(), &args.answers)?;
+    let map = args.column_map()?;
     if let Some(folder) = &args.report {
         std::fs::create_dir_all(folder)
             .context("cannot create the folder of reports; check its name and your permissions")
@@ -156,7 +225,11 @@ fn import(
 
 /// Returns rate, order and errors of a fit, what the rate loses, and the tap transient.
 fn summary(report: &FitReport, recordings: &[Recording]) -> String {
-    let compared = if report.held_out { "held-out segments" } else { "the fitted segments" };
+    let compared = match report.held_out {
+        HeldOut::Segments => "held-out segments",
+        HeldOut::Blocks => "held-out blocks of the same strokes",
+        HeldOut::Nothing => "the fitted segments",
+    };
     let mut parts = vec![format!(
         "model rate {:.0} Hz, order {}; against {compared}: GFC {:.3}, level error {:.2} dB (medians)",
         report.rate.0,
@@ -233,7 +306,8 @@ fn figures(files: &[&Path], fitted: &Fitted) -> Value {
         "coverage": report.coverage,
         "gfc_median": report.gfc_median(),
         "level_error_db_median": report.level_error_db_median(),
-        "held_out": report.held_out,
+        "held_out": report.held_out.is_any(),
+        "held_out_blocks": report.held_out == HeldOut::Blocks,
         "tap": tap_json(report.tap.as_ref()),
     })
 }
@@ -242,7 +316,7 @@ fn figures(files: &[&Path], fitted: &Fitted) -> Value {
 mod tests {
     use super::summary;
     use shagreen_core::recording::Recording;
-    use shagreen_core::recording::fit::{FitReport, TapFit};
+    use shagreen_core::recording::fit::{FitReport, HeldOut, TapFit};
     use shagreen_core::texture::tap::Tap;
     use shagreen_core::units::Hertz;
 
@@ -264,7 +338,7 @@ mod tests {
             coverage: 1.0,
             frequencies: Vec::new(),
             tap,
-            held_out: true,
+            held_out: HeldOut::Segments,
             notes: Vec::new(),
         }
     }
@@ -277,6 +351,18 @@ mod tests {
         for rate_hz in [1000.0, 1500.0] {
             let said = summary(&report(1000.0, None), &[recording(rate_hz)]);
             assert!(!said.contains("--rate"), "{said}");
+        }
+    }
+
+    #[test]
+    fn the_summary_says_what_was_held_out() {
+        for (held_out, words) in [
+            (HeldOut::Segments, "against held-out segments:"),
+            (HeldOut::Blocks, "against held-out blocks of the same strokes:"),
+            (HeldOut::Nothing, "against the fitted segments:"),
+        ] {
+            let said = summary(&FitReport { held_out, ..report(1000.0, None) }, &[recording(1000.0)]);
+            assert!(said.contains(words), "{said}");
         }
     }
 

@@ -3,46 +3,8 @@
 use std::collections::BTreeMap;
 
 use serde_json::{Value, json};
-use shagreen_core::maths::statistics::mean;
 
-/// Predictions of one method for all textures.
-pub(crate) struct MethodPredictions {
-    /// Name of the method.
-    pub(crate) name: String,
-    /// Predicted attributes: textures × attributes, 0..100.
-    pub(crate) predicted: Vec<Vec<f64>>,
-}
-
-/// Name of the baseline.
-const BASELINE: &str = "mean of the others";
-
-impl MethodPredictions {
-    /// Returns whether this is the baseline, which does not look at a texture.
-    pub(crate) fn is_baseline(&self) -> bool {
-        self.name == BASELINE
-    }
-
-    /// Baseline: the prediction for each texture is the mean of the others.
-    pub(crate) fn mean_of_others(values: &[Vec<f64>]) -> Self {
-        let n_attributes = values.first().map_or(0, Vec::len);
-        let without = |index: usize, attribute: usize| {
-            let others = values.iter().enumerate().filter(|(i, _)| *i != index);
-            mean(&others.map(|(_, values)| values[attribute]).collect::<Vec<f64>>())
-        };
-        let of = |index| (0..n_attributes).map(|attribute| without(index, attribute)).collect();
-        Self { name: BASELINE.to_owned(), predicted: (0..values.len()).map(of).collect() }
-    }
-
-    /// Returns the mean absolute error of each attribute, in points of 0..100.
-    pub(crate) fn mae(&self, values: &[Vec<f64>]) -> Vec<f64> {
-        errors(&self.predicted, values).mae
-    }
-
-    /// Returns the root mean square error (RMSE) of each attribute, in points of 0..100.
-    pub(crate) fn rmse(&self, values: &[Vec<f64>]) -> Vec<f64> {
-        errors(&self.predicted, values).rmse
-    }
-}
+pub(crate) use shagreen_studio::method_predictions::MethodPredictions;
 
 /// Errors of one method by attribute, in points of 0..100.
 struct Errors {
@@ -62,7 +24,9 @@ impl<'a> Comparison<'a> {
     /// Compares at least one method. `values` are the true attributes (textures × attributes), `names` the names of the
     /// attributes.
     pub(crate) fn new(all: &'a [MethodPredictions], names: &'a [String], values: &[Vec<f64>]) -> Self {
-        let errors: Vec<Errors> = all.iter().map(|judged| errors(&judged.predicted, values)).collect();
+        let errors_of =
+            |judged: &MethodPredictions| Errors { mae: judged.mae(values), rmse: judged.rmse(values) };
+        let errors: Vec<Errors> = all.iter().map(errors_of).collect();
         let total = |errors: &Errors| errors.rmse.iter().sum::<f64>();
         let best =
             (0..all.len()).min_by(|a, b| total(&errors[*a]).total_cmp(&total(&errors[*b]))).unwrap_or(0);
@@ -127,19 +91,6 @@ impl<'a> Comparison<'a> {
     }
 }
 
-fn errors(predicted: &[Vec<f64>], values: &[Vec<f64>]) -> Errors {
-    let n_attributes = values.first().map_or(0, Vec::len);
-    let off = |attribute: usize| -> Vec<f64> {
-        predicted.iter().zip(values).map(|(p, v)| (p[attribute] - v[attribute]).abs()).collect()
-    };
-    let square =
-        |errors: &[f64]| mean(&errors.iter().map(|error| error * error).collect::<Vec<f64>>()).sqrt();
-    Errors {
-        mae: (0..n_attributes).map(|attribute| mean(&off(attribute))).collect(),
-        rmse: (0..n_attributes).map(|attribute| square(&off(attribute))).collect(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::{Comparison, MethodPredictions};
@@ -148,7 +99,6 @@ mod tests {
     fn errors_are_their_definitions_and_the_best_way_is_named() {
         let values = vec![vec![10.0, 0.0], vec![20.0, 50.0], vec![60.0, 100.0]];
         let mean = MethodPredictions::mean_of_others(&values);
-        assert_eq!(mean.predicted, [[40.0, 75.0], [35.0, 50.0], [15.0, 25.0]]);
         let near = MethodPredictions {
             name: "near".to_owned(),
             predicted: vec![vec![13.0, 0.0], vec![24.0, 50.0], vec![60.0, 95.0]],

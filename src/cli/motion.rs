@@ -6,11 +6,12 @@ use anyhow::bail;
 use shagreen_core::units::Contact;
 use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::wav::TraceV1;
+use shagreen_studio::stroke_contacts::StrokeContacts;
 use shagreen_studio::trace::steady_trace;
 
 use crate::cli::output;
 use crate::cli::quantity::{force, quantity, speed};
-use crate::cli::stroke::{self, StrokeContacts};
+use crate::cli::stroke;
 use crate::cli::stroke_args::StrokeArgs;
 
 #[derive(clap::Args)]
@@ -32,6 +33,20 @@ pub(crate) struct MotionArgs {
     stroke: Option<PathBuf>,
     #[command(flatten)]
     reading: StrokeArgs,
+}
+
+impl MotionArgs {
+    /// Returns the name of the first option that was given.
+    pub(crate) fn given(&self) -> Option<&'static str> {
+        let options = [
+            ("--speed", self.speed.is_some()),
+            ("--force", self.force.is_some()),
+            ("--seconds", self.seconds.is_some()),
+            ("--stroke", self.stroke.is_some()),
+        ];
+        let given = options.into_iter().find(|(_, is_given)| *is_given).map(|(name, _)| name);
+        given.or_else(|| self.reading.given().next())
+    }
 }
 
 /// Longest steady contact that is rendered or played, in seconds: the same limit as for a stroke.

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use anyhow::{Context as _, bail};
-use serde_json::json;
+use serde_json::{Value, json};
 use shagreen_core::space::texture_path::path_mix;
 use shagreen_core::space::texture_path::{PrecomputedProgress, TexturePath};
 use shagreen_core::texture::plane::Plane;
@@ -11,6 +11,8 @@ use shagreen_core::texture::render::synth_blend;
 use shagreen_device::controls::Input;
 use shagreen_device::engine::{FADE_SECS, Handle};
 use shagreen_device::hand::{Hand, Path};
+use shagreen_device::haptic_pen::sender::HapticReading;
+use shagreen_device::haptic_pen::waveform::Waveform;
 use shagreen_device::status::Status;
 use shagreen_device::synth::renderer::{Mix, Parent};
 use shagreen_device::synth::tap::Tap;
@@ -77,6 +79,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     running.drain(PATIENCE);
     let limited = LimiterSummary::new(&status, n_frames_before, watch.heat_gain(), args.rig.has_actuator());
     limited.warnings().iter().for_each(|warning| output::warn(warning));
+    let haptic = running.haptic_reading();
+    if let Some(reading) = haptic {
+        output::note(&approximation(reading));
+    }
     output::print(
         args.json,
         &json!({
@@ -100,6 +106,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "clamped": chosen.clamped,
             "extrapolated": chosen.extrapolated,
             "shape": chosen.shape.text(),
+            "haptic_pen": haptic.map(haptic_json),
         }),
         || {
             format!(
@@ -115,6 +122,24 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         },
     );
     check(&status)
+}
+
+/// Says what a haptic pen has played instead of the texture.
+fn approximation(reading: HapticReading) -> String {
+    let played = reading.strongest.and_then(|play| Some((play.waveform?.name(), play.intensity_percent)));
+    let played = played.map_or("nothing, because the texture is too weak".to_owned(), |(name, percent)| {
+        format!("at its strongest \"{name}\" at {percent} %")
+    });
+    format!("a haptic pen plays an approximation by waveforms of its own: {played}")
+}
+
+fn haptic_json(reading: HapticReading) -> Value {
+    json!({
+        "waveform": reading.strongest.and_then(|play| play.waveform).map(Waveform::name),
+        "intensity_percent": reading.strongest.map(|play| play.intensity_percent),
+        "reports": reading.n_reports,
+        "approximation": true,
+    })
 }
 
 /// Returns an error if the limiter tripped: the rest of the output was then silent.

@@ -1,16 +1,13 @@
 //! Points of the space as arguments: coordinates in the order of the axes, or by the names of the axes.
 
-use anyhow::bail;
 use serde_json::{Value, json};
-use shagreen_core::space::{SpacePoint, with_local_means};
-use shagreen_core::words::counted;
+use shagreen_core::space::SpacePoint;
 use shagreen_formats::library::Library;
 use shagreen_formats::named_point::named_coordinates;
-use shagreen_formats::project::plain_axis_name;
-use shagreen_studio::axes::axis_poles;
+use shagreen_studio::points::{PointError, named_point, point_of};
 
 use crate::cli::axis_name::axis_name;
-use crate::cli::output::{self, Usage};
+use crate::cli::output::{Printed, Usage};
 
 /// A point whose axes are those of a library that is not loaded yet.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,64 +65,24 @@ impl PointArg {
     /// Wrong usage: a coordinate outside 0 to 100, another number of coordinates than of axes, an axis that is named twice
     /// or that the library's positions do not have.
     pub(crate) fn in_space(&self, library: &Library) -> anyhow::Result<SpacePoint> {
-        let axes = library.axis_names();
-        match self {
-            Self::Ordered(coordinates) => {
-                if coordinates.len() != axes.len() {
-                    bail!(Usage(other_count(coordinates.len(), &axes)));
-                }
-                for (axis, value) in axes.iter().zip(coordinates) {
-                    check(axis, *value)?;
-                }
-                Ok(SpacePoint::of(coordinates)?)
+        let point = match self {
+            Self::Ordered(coordinates) => point_of(coordinates, library),
+            Self::Named(named) => {
+                let named: Vec<(String, f64)> =
+                    named.iter().map(|(name, value)| (axis_name(library, name), *value)).collect();
+                named_point(&named, library, &Printed)
             }
-            Self::Named(named) => named_point(named, library),
-        }
-    }
-}
-
-/// Returns the error for a point with another number of coordinates than there are axes.
-fn other_count(n_given: usize, axes: &[&str]) -> String {
-    let n_axes = if axes.len() == 1 { "1 axis".to_owned() } else { format!("{} axes", axes.len()) };
-    let how = if axes.len() == 2 { "write RS,HS as in 30,70" } else { "write one coordinate for each axis" };
-    let given = counted(n_given, "coordinate");
-    format!(
-        "the point has {given}, but the space has {n_axes} ({}); {how}, or select the axes with --axes",
-        axes.join(", ")
-    )
-}
-
-/// Returns the point with these coordinates by name.
-fn named_point(named: &[(String, f64)], library: &Library) -> anyhow::Result<SpacePoint> {
-    let axes = library.axis_names();
-    let mut coordinates: Vec<Option<f64>> = vec![None; axes.len()];
-    for (name, value) in named {
-        let name = axis_name(library, name);
-        let name = plain_axis_name(&name);
-        check(name, *value)?;
-        let Some(axis) = axes.iter().position(|axis| *axis == name) else {
-            bail!(Usage(format!("the space has no axis \"{name}\"; its axes are {}", axes.join(", "))));
         };
-        if coordinates[axis].replace(*value).is_some() {
-            bail!(Usage(format!("{name} is given twice; give each axis once")));
-        }
+        Ok(point.map_err(usage)?)
     }
-    let whole = with_local_means(&library.positions(), &coordinates);
-    for ((axis, given), mean) in axes.iter().zip(&coordinates).zip(&whole) {
-        if given.is_none() {
-            output::note(&format!("{axis} is not given; its local mean is {mean:.1}"));
-        }
-    }
-    Ok(SpacePoint::of(&whole)?)
 }
 
-/// Checks that a coordinate lies on its axis.
-fn check(axis: &str, value: f64) -> anyhow::Result<()> {
-    if (0.0..=100.0).contains(&value) {
-        return Ok(());
+/// Wrong usage, with the option that selects other axes.
+fn usage(error: PointError) -> Usage {
+    match error {
+        PointError::Count { .. } => Usage(format!("{error}, or select the axes with --axes")),
+        error => Usage(error.to_string()),
     }
-    let [low, high] = axis_poles(axis);
-    bail!(Usage(format!("{axis} is {value}; it must be between 0 and 100 (0 = {low}, 100 = {high})")))
 }
 
 /// Returns the coordinates of a point by the names of the axes, as JSON; null without a point.

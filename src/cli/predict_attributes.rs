@@ -10,8 +10,6 @@ use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::maths::gaussian_process::Estimate;
 use shagreen_core::recording::fit::{self, FitOptions};
-use shagreen_core::space::attribute_predictor::{predict, quantities, without_features};
-use shagreen_formats::attribute_table::attribute_table;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::recording::{Ask, ColumnMap};
 use shagreen_learn::model_file::sha256_of;
@@ -24,6 +22,7 @@ use crate::cli::predict_attributes::photo_and_prompt::{predict_from_photo, predi
 use crate::cli::progress::Progress;
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::recording_source::{read_recording_file, read_recording_files};
+use shagreen_studio::attribute_prediction::{PredictedAttributes, attributes_of_model};
 use shagreen_studio::file;
 
 /// Predicts the perceptual attributes of a recorded stroke, a photo or a prompt: 0 to 100, each with its standard
@@ -102,14 +101,12 @@ fn of_recording(args: &Args) -> anyhow::Result<()> {
         Some(_) => args.library.load()?,
         None => BuiltIn::Simulated.read()?,
     };
-    let table = attribute_table(&library)?;
-    let known = table.known(&library);
-    let estimates = predict(&known, &quantities(&fitted.model))?;
-    let labels = without_features(&known);
-    let of_names = table.names.iter().zip(estimates).zip(&labels);
+    let predicted = attributes_of_model(&library, &fitted.model)?;
+    let what = predicted.predictor();
+    let PredictedAttributes { table, estimates, labels, .. } = &predicted;
+    let of_names = table.names.iter().zip(estimates).zip(labels);
     let attributes: Vec<Attribute<'_>> =
-        of_names.map(|((name, of), labels)| Attribute::new(name, of, labels.deviation)).collect();
-    let what = format!("a Gaussian process over {}", table.of_library(&library.name));
+        of_names.map(|((name, of), labels)| Attribute::new(name, *of, labels.deviation)).collect();
     // The training data identify the model.
     let learned = serde_json::to_vec(&json!([table.names, table.values]))?;
     let result = json!({
@@ -154,9 +151,6 @@ fn as_json(attributes: &[Attribute<'_>]) -> BTreeMap<String, Value> {
     };
     attributes.iter().map(of).collect()
 }
-
-/// Standard deviation of a value that may lie anywhere from 0 to 100 with the same probability, `100/√12`.
-const UNIFORM_DEVIATION: f64 = 28.87;
 
 /// Returns one line per attribute, without a number for those that `source` does not determine.
 fn table_text(attributes: &[Attribute<'_>], source: &str) -> String {

@@ -1,21 +1,23 @@
 //! `shagreen quality`: predicts how well two signals can be told apart.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-use anyhow::{Context as _, ensure};
+use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::signals::quality::{
-    Agreement, Feature, Features, MOST_D_PRIME, PAPER_RATE, QualityMeter, Relation, SEGMENT_SECS, snr_db,
-    spqi, st_sim,
+    Agreement, Feature, Features, MOST_D_PRIME, PAPER_RATE, Relation, SEGMENT_SECS,
 };
-use shagreen_formats::quality_model::built_in_quality_model;
 use shagreen_formats::thresholds::ThresholdKind;
 
-use crate::cli::output;
+use crate::cli::output::{self, Printed, Usage};
 use crate::cli::progress::Progress;
+use crate::cli::quality_fit;
+use crate::cli::quality_model_args::{ModelArgs, model_json};
 use crate::cli::signal_source::SignalArgs;
 use crate::cli::words::words;
 use shagreen_studio::file;
+use shagreen_studio::quality_model::ChosenModel;
+use shagreen_studio::signal_quality::{SignalQuality, compare_signals};
 
 /// Compares a signal with a reference by perceptual features and predicts their discriminability d'.
 ///
@@ -26,63 +28,66 @@ use shagreen_studio::file;
 /// The prediction is for a signal and a processed version of it, whose waveforms correlate. Two strokes on one texture,
 /// or two renderings of it, feel alike, but the model would give them a large d'. The command therefore prints no d' for
 /// signals whose waveforms do not correlate. No person rated these signals: a model with published weights predicts d', and
-/// its feature distances are scaled on a corpus of simulated textures. Use d' to rank signals.
+/// its feature distances are scaled on a corpus of simulated textures. Use d' to rank signals. `shagreen quality fit` fits a
+/// model to pairs that people have rated; --model uses it.
 #[derive(clap::Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Args {
+    #[command(subcommand)]
+    command: Option<Command>,
     /// Reference signal.
-    #[arg(value_name = "REF.wav")]
-    reference: PathBuf,
+    #[arg(value_name = "REF.wav", required = true)]
+    reference: Option<PathBuf>,
     /// Signal to compare with the reference.
-    #[arg(value_name = "TEST.wav")]
-    test: PathBuf,
+    #[arg(value_name = "TEST.wav", required = true)]
+    test: Option<PathBuf>,
     #[command(flatten)]
     signals: SignalArgs,
+    #[command(flatten)]
+    model: ModelArgs,
     /// Detection threshold over frequency: held-tool for vibration felt through a held tool, pacinian or composite for
     /// bare skin on a large contactor. The curves are approximate. pacinian and composite differ only below 40 Hz,
-    /// outside the frequency channels of d'.
-    #[arg(long, value_name = "THRESHOLD", value_parser = words(ThresholdKind::ALL, ThresholdKind::id),
-        default_value = ThresholdKind::default().id())]
-    threshold: ThresholdKind,
+    /// outside the frequency channels of d'. Default: that of the model; held-tool for the built-in one.
+    #[arg(long, value_name = "THRESHOLD", value_parser = words(ThresholdKind::ALL, ThresholdKind::id))]
+    threshold: Option<ThresholdKind>,
     /// Print the result as one JSON object.
     #[arg(long)]
     json: bool,
 }
 
+#[derive(clap::Subcommand)]
+enum Command {
+    Fit(Box<quality_fit::Args>),
+}
+
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
-    let rate = PAPER_RATE;
-    let progress = Progress::endless("comparing the signals");
-    let mut reference = args.signals.load_at(&args.reference, rate)?;
-    let mut test = args.signals.load_at(&args.test, rate)?;
-    let n_samples = reference.len().min(test.len());
-    if reference.len() != test.len() {
+    match (&args.command, &args.reference, &args.test) {
+        (Some(Command::Fit(args)), ..) => quality_fit::run(args),
+        (None, Some(reference), Some(test)) => compare(args, reference, test),
+        // The parser requires both.
+        (None, ..) => bail!(Usage("name the reference and the signal to compare with it".to_owned())),
+    }
+}
+
+fn compare(args: &Args, reference_file: &Path, test_file: &Path) -> anyhow::Result<()> {
+    let model = args.model.load()?;
+    let threshold = args.threshold.unwrap_or(model.threshold());
+    let is_own = model.sha256.is_some();
+    if let Some(fitted) = model.file.threshold.filter(|fitted| is_own && *fitted != threshold) {
         output::warn(&format!(
-            "the signals have {} and {} samples; the first {n_samples} of both are compared",
-            reference.len(),
-            test.len()
+            "the model {} was fitted with the threshold {}; with {}, the size of d' is another one",
+            model.name,
+            fitted.id(),
+            threshold.id()
         ));
     }
-    reference.truncate(n_samples);
-    test.truncate(n_samples);
-    let threshold = args.threshold.read()?;
-    let meter = QualityMeter::new(rate, &threshold)?;
-    let distances = meter.distances(&reference, &test).with_context(|| file::in_file(&args.test))?;
-    let (a, b) = (meter.features(&reference)?, meter.features(&test)?);
-    let d_prime = built_in_quality_model()?.d_prime(&distances);
-    ensure!(
-        d_prime.is_finite(),
-        "d' is not finite: the signal levels are too large or too small for the model; check their units (m/s²)"
-    );
-    let seconds = (n_samples / meter.n_segment()) as f64 * SEGMENT_SECS;
-    if n_samples % meter.n_segment() > 0 {
-        let whole = n_samples as f64 / rate.0;
-        output::note(&format!(
-            "{seconds:.1} s of {whole:.2} s are compared: only whole segments of {SEGMENT_SECS} s are used"
-        ));
-    }
-    let similarities =
-        [st_sim(&reference, &test, rate, &threshold), spqi(&reference, &test, rate, &threshold)];
-    let snr = snr_db(&reference, &test);
-    let agreement = Agreement::of(&reference, &test, rate);
+    let progress = Progress::endless("comparing the signals");
+    let reference = args.signals.load_at(reference_file, PAPER_RATE)?;
+    let test = args.signals.load_at(test_file, PAPER_RATE)?;
+    let is_short = (reference.len() as f64) < SEGMENT_SECS * PAPER_RATE.0;
+    let quality = compare_signals(&reference, &test, threshold, &model.file.model, &Printed)
+        .with_context(|| file::in_file(if is_short { reference_file } else { test_file }))?;
+    let SignalQuality { features: [a, b], distances, d_prime, snr_db, agreement, seconds, .. } = quality;
 
     let mut answer = json!({
         "d_power": distances.by(Feature::SpectralPower),
@@ -92,13 +97,14 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         "waveform_correlation": agreement.correlation,
         "octave_levels_differ_db": agreement.spectra_db,
         "spectra_gfc": agreement.spectra_gfc,
-        "st_sim": similarities[0],
-        "spqi": similarities[1],
+        "st_sim": quality.st_sim,
+        "spqi": quality.spqi,
         // Infinite for identical signals.
-        "snr_db": snr.is_finite().then_some(snr),
-        "rate_hz": rate.0,
+        "snr_db": snr_db.is_finite().then_some(snr_db),
+        "rate_hz": PAPER_RATE.0,
         "seconds": seconds,
-        "threshold": args.threshold.id(),
+        "threshold": threshold.id(),
+        "model": model_json(&model),
     });
     for feature in Feature::ALL {
         let distance = distances.by(feature);
@@ -110,12 +116,12 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         };
     }
     progress.finish();
-    output::print(args.json, &answer, || text(&answer, &d_prime_text(d_prime, seconds, &agreement)));
+    output::print(args.json, &answer, || text(&answer, &d_prime_text(d_prime, seconds, &agreement, &model)));
     Ok(())
 }
 
 /// States the predicted d' and its limits, or why it does not apply.
-fn d_prime_text(d_prime: f64, seconds: f64, agreement: &Agreement) -> String {
+fn d_prime_text(d_prime: f64, seconds: f64, agreement: &Agreement, model: &ChosenModel) -> String {
     let Agreement { correlation, spectra_db, spectra_gfc } = agreement;
     match agreement.relation() {
         Relation::Processed => {
@@ -124,8 +130,12 @@ fn d_prime_text(d_prime: f64, seconds: f64, agreement: &Agreement) -> String {
             } else {
                 format!("{d_prime:.2}")
             };
+            let by = match model.sha256 {
+                Some(_) => format!("the model {} ({})", model.name, model.origin()),
+                None => "a model".to_owned(),
+            };
             format!(
-                "d' {value}, predicted by a model over {seconds:.1} s, not rated by people\nd' ranks processed versions of one signal; its absolute value is uncertain"
+                "d' {value}, predicted by {by} over {seconds:.1} s, not rated by people\nd' ranks processed versions of one signal; its absolute value is uncertain"
             )
         }
         Relation::DifferentNoise => format!(
@@ -174,19 +184,20 @@ fn text(answer: &Value, d_prime: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Agreement, d_prime_text};
+    use shagreen_studio::quality_model::load_quality_model;
 
     #[test]
     fn a_d_prime_is_stated_up_to_5_and_only_where_it_applies() {
+        let model = load_quality_model(None).unwrap();
+        let d_prime_text = |d_prime, agreement: &Agreement| d_prime_text(d_prime, 0.8, agreement, &model);
         let processed = Agreement { correlation: 0.9, spectra_db: 1.0, spectra_gfc: 1.0 };
-        assert!(d_prime_text(1.234, 0.8, &processed).starts_with("d' 1.23, predicted"));
-        assert!(d_prime_text(37.3, 0.8, &processed).starts_with("d' above 5 (easy to tell apart)"));
-        let noise =
-            d_prime_text(6.2, 0.8, &Agreement { correlation: 0.05, spectra_db: 0.4, spectra_gfc: 0.9 });
+        assert!(d_prime_text(1.234, &processed).starts_with("d' 1.23, predicted"));
+        assert!(d_prime_text(37.3, &processed).starts_with("d' above 5 (easy to tell apart)"));
+        let noise = d_prime_text(6.2, &Agreement { correlation: 0.05, spectra_db: 0.4, spectra_gfc: 0.9 });
         assert!(noise.starts_with("no d': different noise") && !noise.contains("6.2"), "{noise}");
-        let other =
-            d_prime_text(57.7, 0.8, &Agreement { correlation: 0.05, spectra_db: 12.0, spectra_gfc: 0.2 });
+        let other = d_prime_text(57.7, &Agreement { correlation: 0.05, spectra_db: 12.0, spectra_gfc: 0.2 });
         assert!(other.starts_with("no d': the waveforms") && other.contains("12.0 dB"), "{other}");
-        for text in [noise, other, d_prime_text(1.0, 0.8, &processed)] {
+        for text in [noise, other, d_prime_text(1.0, &processed)] {
             assert!(text.to_lowercase().contains("not rated by people"), "{text}");
         }
     }

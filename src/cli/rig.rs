@@ -1,16 +1,17 @@
 //! Device setup: an output, the actuator on it, and its limits.
 
 use anyhow::{Context as _, bail};
-use shagreen_core::actuator::{Actuator, Drive, drive_config};
+use shagreen_core::actuator::{Actuator, Drive, MAX_CHANNEL, drive_config};
 use shagreen_core::units::Volts;
 use shagreen_device::engine::{ChannelMask, Handle};
+use shagreen_device::haptic_pen;
 use shagreen_device::output::{
     NULL_ID, OpenOptions, Running, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_CEILING, open,
 };
 use shagreen_device::serial::message::Mode;
 use shagreen_device::serial::{self, Connection, SerialOptions, USUAL_BAUD};
 use shagreen_device::synth::drive::DriveConfig;
-use shagreen_studio::driven_channels::driven_channels;
+use shagreen_studio::driven_channels::{channel_of, driven_channels, n_named_channels};
 
 use crate::cli::actuator_source::{grams, load_actuator, volts};
 use crate::cli::output;
@@ -43,9 +44,11 @@ pub(crate) struct RigArgs {
         default_value = "stream"
     )]
     serial_mode: SerialMode,
-    /// Drive only this output channel, counted from 1. Default: the first two channels.
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=64))]
-    channel: Option<u16>,
+    /// Drive only this output channel: a number counted from 1, or a name. Names are those of the profile of --actuator,
+    /// otherwise "front left", "front right", "rear left" and "rear right". Default: the named channels of the profile,
+    /// otherwise the first two.
+    #[arg(long, value_name = "N_OR_NAME", value_parser = channel)]
+    channel: Option<String>,
     /// Take the output over from another Shagreen that plays on it; the other one then goes silent.
     #[arg(long, conflicts_with = "serial")]
     take_over: bool,
@@ -90,6 +93,18 @@ enum SerialMode {
     Friction,
 }
 
+/// Parses a channel: a number from 1, or a name that is resolved later.
+fn channel(text: &str) -> Result<String, String> {
+    let is_number =
+        |text: &str| text.trim_start_matches(['-', '+']).chars().all(|c| c.is_ascii_digit() || c == '.');
+    let is_valid = text.parse::<u16>().is_ok_and(|number| (1..=MAX_CHANNEL).contains(&number));
+    if is_valid || !is_number(text) {
+        Ok(text.to_owned())
+    } else {
+        Err(format!("it must be 1 to {MAX_CHANNEL}, or the name of a channel"))
+    }
+}
+
 /// Returns the driven channels: the first two, or only the one with this number, from 1.
 pub(crate) fn channels(only: Option<u16>) -> ChannelMask {
     driven_channels(None, index_of(only), false).0
@@ -103,9 +118,15 @@ fn index_of(channel: Option<u16>) -> Option<usize> {
 impl RigArgs {
     /// Opens the output for textures of this rate, with this random seed of the noise.
     pub(crate) fn open(&self, model_rate_hz: f32, seed: u64) -> anyhow::Result<Rig> {
+        if self.actuator.is_some() && self.output.starts_with(haptic_pen::ID_PREFIX) {
+            bail!(
+                "the output `{}` plays waveforms of its own, so that no actuator applies to it; leave --actuator out",
+                self.output
+            );
+        }
         let actuator = self.actuator.as_ref().map(|name| load_actuator(name, self.load_g)).transpose()?;
-        let (channels, friction) =
-            driven_channels(actuator.as_ref(), index_of(self.channel), self.serial.is_some());
+        let only = self.channel.as_deref().map(|text| channel_of(actuator.as_ref(), text)).transpose()?;
+        let (channels, friction) = driven_channels(actuator.as_ref(), only, self.serial.is_some());
         let options = OpenOptions {
             model_rate_hz,
             preferred_rate_hz: None,
@@ -132,10 +153,23 @@ impl RigArgs {
                 rig.watch.what()
             ));
         }
-        match self.channel.filter(|channel| *channel > n_channels) {
+        let profile = actuator.as_ref().filter(|_| self.serial.is_none());
+        let n_needed = profile.map_or(0, n_named_channels);
+        if only.is_none() && n_needed > usize::from(n_channels) {
+            output::warn(&format!(
+                "{} has {n_channels} channels, and the profile of the actuator needs {n_needed}: not all channels of the profile are played",
+                rig.watch.what()
+            ));
+        }
+        match only.filter(|channel_idx| *channel_idx >= usize::from(n_channels)) {
             None => Ok(rig),
-            Some(channel) => bail!(
-                "there is no channel {channel}: {} has {n_channels}; choose another --channel, or leave it out",
+            Some(_) if n_needed > usize::from(n_channels) => bail!(
+                "{} has {n_channels} channels, and the profile of the actuator needs {n_needed}; choose another output",
+                rig.watch.what()
+            ),
+            Some(channel_idx) => bail!(
+                "there is no channel {}: {} has {n_channels}; choose another --channel, or leave it out",
+                channel_idx + 1,
                 rig.watch.what()
             ),
         }
@@ -169,6 +203,13 @@ impl RigArgs {
             return Ok(DriveConfig::proportional(self.full_scale as f32, USUAL_CEILING));
         };
         let name = self.actuator.as_deref().unwrap_or(&actuator.id);
+        if actuator.is_proportional() {
+            output::note(&format!(
+                "the response of the actuator `{name}` is unknown: the drive is proportional to the acceleration, with full scale at {} m/s²; calibrate it for a known acceleration",
+                self.full_scale
+            ));
+            return Ok(DriveConfig::proportional(self.full_scale as f32, USUAL_CEILING));
+        }
         let drive = self.full_scale_of(actuator, name)?;
         let config = drive_config(actuator, drive, !self.no_equalizer);
         let config = config.with_context(|| format!("the actuator `{name}` cannot be driven"))?;

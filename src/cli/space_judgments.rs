@@ -57,6 +57,16 @@ pub(crate) struct Judgments {
 }
 
 impl JudgmentArgs {
+    /// Tables that other options name; without votes on relevance.
+    pub(crate) fn of(
+        sorting: Option<PathBuf>,
+        ratings: PathBuf,
+        scale: Option<Scale>,
+        source: Option<String>,
+    ) -> Self {
+        Self { sorting, ratings, relevance: None, scale, source }
+    }
+
     /// Returns the files.
     pub(crate) fn paths(&self) -> [Option<&Path>; 3] {
         [self.sorting.as_deref(), Some(&self.ratings), self.relevance.as_deref()]

@@ -7,7 +7,7 @@ use crate::cli::hid_files::size_mm;
 use crate::cli::output;
 use crate::cli::quantity::quantity;
 
-#[derive(clap::Args)]
+#[derive(Default, clap::Args)]
 #[command(next_help_heading = "Options for recorded strokes")]
 pub(crate) struct StrokeArgs {
     /// Length of one unit of x and y in a .svc file, in mm. The file does not state it. Default: 0.005 (5080 lines per

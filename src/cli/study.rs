@@ -7,7 +7,7 @@ mod power;
 mod preview;
 mod run;
 mod templates;
-mod textures;
+pub(crate) mod textures;
 
 #[derive(clap::Subcommand)]
 pub(crate) enum Command {

@@ -4,10 +4,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use shagreen_core::space::SpacePoint;
+use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::shape::Shape;
-use shagreen_formats::library::Library;
+use shagreen_core::words::counted;
+use shagreen_formats::library::{Library, TextureEntry};
 use shagreen_formats::project::Project;
 use shagreen_studio::near_names::unknown_texture;
+use shagreen_studio::points::point_name;
 use shagreen_studio::project::{find_authored, load_project, textures_by_id, textures_of};
 use shagreen_studio::sound::Sound;
 
@@ -54,6 +57,30 @@ struct TargetArgs {
     /// `shagreen project show` lists names and numbers.
     #[arg(long, value_name = "NAME", requires = "project", conflicts_with_all = ["blend", "natural", "extrapolate", "lock", "axes"])]
     authored: Option<String>,
+}
+
+/// A selected texture with its name.
+pub(crate) struct NamedSound {
+    /// Name of the texture of the library, of the authored texture, or of the point.
+    pub(crate) name: String,
+    /// The texture.
+    pub(crate) sound: Sound,
+}
+
+impl NamedSound {
+    /// Returns all textures of a library, in a shape.
+    pub(crate) fn all_of(library: &Library, shape: &Shape) -> anyhow::Result<Vec<Self>> {
+        let named = |entry: &TextureEntry| {
+            let sound = Sound::of_texture(library, &entry.id, Mode::default(), shape)?;
+            Ok(Self { name: entry.name.clone(), sound })
+        };
+        library.textures.iter().map(named).collect()
+    }
+
+    /// Returns the id of a texture of a library, or else the name.
+    pub(crate) fn id(&self) -> &str {
+        self.sound.texture.as_deref().unwrap_or(&self.name)
+    }
 }
 
 /// Textures to select from, and the point that the arguments name. Textures that take no part in the interpolation of the
@@ -116,6 +143,32 @@ impl SoundArgs {
         Ok(project.with_places_of(textures, |id| locked.contains(id)))
     }
 
+    /// Loads the textures, and selects one with its name if the arguments name one: for commands that can also use all textures.
+    /// A point has the name of its coordinates, as in a batch.
+    pub(crate) fn load_any(&self) -> anyhow::Result<(Library, Option<NamedSound>)> {
+        let TargetArgs { at, texture, authored } = &self.target;
+        if at.is_none() && texture.is_none() && authored.is_none() {
+            let Some(path) = &self.project else { return Ok((self.library.load()?, None)) };
+            let project = load_project(path, &permitted_libraries(), &Printed)?;
+            if !project.authored.is_empty() {
+                output::note(&format!(
+                    "left out: {} of the project; --authored NAME selects one, and `shagreen project show` lists them",
+                    counted(project.authored.len(), "authored texture")
+                ));
+            }
+            return Ok((textures_by_id(&project, &Printed)?, None));
+        }
+        let textures = self.load_textures(None)?;
+        let sound = self.choose(&textures)?;
+        let name = name_of(&textures, &sound, authored.as_deref())?;
+        Ok((textures.library, Some(NamedSound { name, sound })))
+    }
+
+    /// Returns the shape that was given; the neutral one without one.
+    pub(crate) fn shape(&self) -> Shape {
+        self.shape.or(Shape::default())
+    }
+
     /// Returns the library file or folder, or the project, that was named.
     pub(crate) fn library_path(&self) -> Option<&Path> {
         self.project.as_deref().or(self.library.path())
@@ -136,4 +189,19 @@ impl SoundArgs {
         };
         Sound::of_point(library, point, (&blending, &shape), &Printed)
     }
+}
+
+/// Name of a selected texture; `authored` is the name or number of an authored texture.
+fn name_of(
+    Textures { library, project, .. }: &Textures,
+    sound: &Sound,
+    authored: Option<&str>,
+) -> anyhow::Result<String> {
+    if let (Some(name), Some(project)) = (authored, project) {
+        return Ok(find_authored(project, name)?.name.clone());
+    }
+    if let Some(index) = sound.texture.as_deref().and_then(|id| library.index_of(id)) {
+        return Ok(library.textures[index].name.clone());
+    }
+    Ok(point_name(sound.at.unwrap_or_default().coordinates()))
 }

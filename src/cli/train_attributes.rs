@@ -1,15 +1,17 @@
 //! `shagreen train attributes`: trains predictors of attributes from texture models and evaluates them.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::ensure;
 use serde_json::{Value, json};
 use shagreen_core::maths::gaussian_process::Estimate;
+use shagreen_core::maths::shard::Shard;
 use shagreen_core::maths::statistics::mean;
 use shagreen_core::space::attribute_predictor::{leave_one_out, linear_leave_one_out};
 use shagreen_core::words::counted;
-use shagreen_formats::attribute_table::attribute_table;
+use shagreen_formats::attribute_table::{AttributeTable, attribute_table};
+use shagreen_formats::library::Library;
 
 use crate::cli::drawn_touches::{DrawnTouches, drawn_touches};
 use crate::cli::library_args::LibraryArgs;
@@ -17,7 +19,7 @@ use crate::cli::method_predictions::{Comparison, MethodPredictions};
 use crate::cli::output;
 use crate::cli::prediction_figures::{FigureArgs, Judged};
 use crate::cli::progress::Progress;
-use crate::cli::train_networks::{NetworkArgs, check_arguments, train_networks};
+use crate::cli::train_networks::{NetworkArgs, check_arguments, train_networks, train_part};
 
 /// Trains predictors of texture attributes on the texture models of a library. Reports leave-one-texture-out errors: each
 /// texture is predicted by a predictor that was trained on the others.
@@ -71,6 +73,9 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         library.name,
         counted(known.len(), "texture")
     );
+    if let (Some(shard), Some(state)) = (args.networks.shard(), &args.state) {
+        return train_a_part(args, state, (&library, &table), shard);
+    }
     args.figures.check(&table.names, &[args.library.path()])?;
     let progress = Progress::endless("predicting each texture from the others");
     let estimates = leave_one_out(&known)?;
@@ -138,4 +143,28 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     });
     // After the result, which took hours and must not be lost with the figures.
     drawing
+}
+
+/// Trains the networks that leave out a part of the textures.
+fn train_a_part(
+    args: &Args,
+    state: &Path,
+    (library, table): (&Library, &AttributeTable),
+    shard: Shard,
+) -> anyhow::Result<()> {
+    let textures = train_part(&args.networks, state, library, table, shard)?;
+    let result = json!({
+        "shard": shard.to_string(),
+        "state": state.display().to_string(),
+        "textures": textures,
+    });
+    output::print(args.json, &result, || {
+        format!(
+            "Trained without each of {} ({}); when all parts are trained, run the command without --shard: {}",
+            counted(textures.len(), "texture"),
+            textures.join(", "),
+            state.display()
+        )
+    });
+    Ok(())
 }

@@ -2,6 +2,7 @@
 //! resumable.
 
 mod network_kind;
+mod run;
 mod time_budget;
 mod trained;
 mod training_strokes;
@@ -11,10 +12,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use anyhow::{Context as _, bail, ensure};
-use shagreen_core::words::two_digits;
+use shagreen_core::maths::shard::Shard;
 use shagreen_formats::atomic;
 use shagreen_formats::attribute_table::AttributeTable;
-use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::library::Library;
 use shagreen_learn::model_card::{GaussianProcessComparison, ModelCard, StrokeOrigin, TrainingExtent};
 use shagreen_learn::model_file::is_model;
@@ -22,9 +22,9 @@ use shagreen_learn::stroke_set::StrokedTexture;
 use shagreen_learn::training::{Training, TrainingConfig};
 
 use crate::cli::method_predictions::MethodPredictions;
-use crate::cli::output;
 use crate::cli::progress::Progress;
 use crate::cli::train_networks::network_kind::{Axes, Network, name_of};
+use crate::cli::train_networks::run::{Run, train};
 use crate::cli::train_networks::time_budget::{TimeBudget, n_rounds};
 use crate::cli::train_networks::trained::{Trained, TrainedKind};
 use crate::cli::train_networks::training_strokes::{RecordingTableArgs, ranges, recorded, rendered};
@@ -71,12 +71,27 @@ pub(crate) struct NetworkArgs {
     /// File to write: a network of the first --network kind, trained on all textures.
     #[arg(long, short, value_name = "MODEL")]
     out: Option<PathBuf>,
+    /// Train only the networks that leave out a part of the textures, such as 2/4, and keep them in the folder --state, to divide
+    /// the work among computers. Once all parts are trained, the command without --shard, on a folder with all files of these
+    /// folders, evaluates them without training again.
+    #[arg(
+        long,
+        value_name = "I/N",
+        requires_all = ["state", "networks"],
+        conflicts_with_all = ["out", "minutes", "figures", "drawn"]
+    )]
+    shard: Option<Shard>,
 }
 
 impl NetworkArgs {
     /// Returns the random seed.
     pub(crate) fn seed(&self) -> u64 {
         self.seed
+    }
+
+    /// Returns the part of the textures to train for.
+    pub(crate) fn shard(&self) -> Option<Shard> {
+        self.shard
     }
 
     fn n_jobs(&self) -> usize {
@@ -132,19 +147,6 @@ struct Course<'a> {
     budget: Option<TimeBudget>,
 }
 
-/// Training of one network among several.
-struct Run<'a> {
-    /// File of its state.
-    kept: Option<PathBuf>,
-    /// Its name in messages.
-    what: String,
-    /// When it must stop.
-    until: Option<Instant>,
-    progress: &'a Progress,
-    /// Whether another training has failed, so that this one is in vain.
-    failed: &'a AtomicBool,
-}
-
 /// Trains each requested network once without each texture, several in parallel, and writes the network that is trained
 /// on all textures. `gaussian_process` holds the predictions of the Gaussian process for the same textures.
 pub(crate) fn train_networks(
@@ -162,22 +164,8 @@ pub(crate) fn train_networks(
     };
     let Some(first) = args.networks.first() else { return Ok(trained) };
     let budget = args.minutes.map(|minutes| TimeBudget::starting(Instant::now(), minutes));
-    if let Some(folder) = state {
-        std::fs::create_dir_all(folder)
-            .context("cannot create the folder; check its name and your permissions")
-            .with_context(|| file::in_file(folder))?;
-    }
-    let preparing = Progress::endless("preparing the training strokes");
-    let n_attributes = table.names.len();
-    let textures = match args.table.path() {
-        Some(path) => {
-            let n_samples = first.architecture(args.axes, n_attributes).n_samples;
-            recorded(&args.table, path, (library, table), args.axes, n_samples)?
-        }
-        None => rendered(library, table, args.share, args.seed)?,
-    };
-    preparing.finish();
-    let course = Course { args, state, textures: &textures, n_attributes, budget };
+    let textures = prepared_textures(args, (*first, state), library, table)?;
+    let course = Course { args, state, textures: &textures, n_attributes: table.names.len(), budget };
     let rounds_of_all = usize::from(args.out.is_some());
     for (kind_idx, network) in args.networks.iter().enumerate() {
         let name = name_of(*network, args.axes);
@@ -206,6 +194,49 @@ pub(crate) fn train_networks(
     Ok(trained)
 }
 
+/// Trains the requested networks without each texture of a part, and keeps them in the folder `state`. Returns the identifiers of
+/// these textures.
+pub(crate) fn train_part(
+    args: &NetworkArgs,
+    state: &Path,
+    library: &Library,
+    table: &AttributeTable,
+    shard: Shard,
+) -> anyhow::Result<Vec<String>> {
+    let Some(first) = args.networks.first() else { return Ok(Vec::new()) };
+    let textures = prepared_textures(args, (*first, Some(state)), library, table)?;
+    let n_attributes = table.names.len();
+    let course = Course { args, state: Some(state), textures: &textures, n_attributes, budget: None };
+    for network in &args.networks {
+        course.train_some(*network, shard)?;
+    }
+    Ok(shard.indices(textures.len()).map(|index| textures[index].id.clone()).collect())
+}
+
+/// Creates the folder of the saved states, and returns the strokes to train on.
+fn prepared_textures(
+    args: &NetworkArgs,
+    (first, state): (Network, Option<&Path>),
+    library: &Library,
+    table: &AttributeTable,
+) -> anyhow::Result<Vec<StrokedTexture>> {
+    if let Some(folder) = state {
+        std::fs::create_dir_all(folder)
+            .context("cannot create the folder; check its name and your permissions")
+            .with_context(|| file::in_file(folder))?;
+    }
+    let preparing = Progress::endless("preparing the training strokes");
+    let textures = match args.table.path() {
+        Some(path) => {
+            let n_samples = first.architecture(args.axes, table.names.len()).n_samples;
+            recorded(&args.table, path, (library, table), args.axes, n_samples)?
+        }
+        None => rendered(library, table, args.share, args.seed)?,
+    };
+    preparing.finish();
+    Ok(textures)
+}
+
 impl Course<'_> {
     /// Number of rounds in which the networks of one kind are trained, several at a time.
     fn n_rounds(&self) -> usize {
@@ -220,23 +251,16 @@ impl Course<'_> {
         rounds_after: usize,
     ) -> anyhow::Result<(Vec<f64>, Vec<Vec<f64>>)> {
         let (textures, n_jobs) = (self.textures, self.args.n_jobs());
-        let name = name_of(network, self.args.axes);
         let progress = self.progress(textures.len());
         let failed = AtomicBool::new(false);
         let of = in_parallel_by(n_jobs, textures.len(), |index| {
-            let mut others: Vec<&StrokedTexture> = textures.iter().collect();
-            let left_out = others.remove(index);
-            let run = Run {
-                kept: self.kept(&format!("{name}-without-{}", left_out.id)),
-                what: format!("{name} without {} ({} of {})", left_out.id, index + 1, textures.len()),
-                until: self.until(self.n_rounds() - index / n_jobs + rounds_after),
-                progress: &progress,
-                failed: &failed,
-            };
+            let until = self.until(self.n_rounds() - index / n_jobs + rounds_after);
             let without = || {
-                let Some(training) = train(&others, self.config(network), &run)? else { return Ok(None) };
+                let Some(training) = self.without(network, index, (until, &progress, &failed))? else {
+                    return Ok(None);
+                };
                 let n_epochs = training.n_epochs();
-                let of = training.finish()?.predict(&left_out.strokes)?;
+                let of = training.finish()?.predict(&textures[index].strokes)?;
                 anyhow::Ok(Some((n_epochs, of.context("the strokes are shorter than the input segment of the network; give a larger --share")?)))
             };
             // Stops the other trainings, which would take hours.
@@ -245,6 +269,39 @@ impl Course<'_> {
         progress.finish();
         let of = of.into_iter().collect::<anyhow::Result<Vec<Option<(f64, Vec<f64>)>>>>()?;
         Ok(of.into_iter().flatten().unzip())
+    }
+
+    /// Trains a network once without each texture of a part, and keeps it.
+    fn train_some(&self, network: Network, shard: Shard) -> anyhow::Result<()> {
+        let indices: Vec<usize> = shard.indices(self.textures.len()).collect();
+        let progress = self.progress(indices.len());
+        let failed = AtomicBool::new(false);
+        let done = in_parallel_by(self.args.n_jobs(), indices.len(), |turn| {
+            let trained = self.without(network, indices[turn], (None, &progress, &failed));
+            trained.map(drop).inspect_err(|_| failed.store(true, Ordering::Relaxed))
+        });
+        progress.finish();
+        done.into_iter().collect()
+    }
+
+    /// Trains a network without one texture, to the end or until its time is over; `None` if another training has failed.
+    fn without(
+        &self,
+        network: Network,
+        index: usize,
+        (until, progress, failed): (Option<Instant>, &Progress, &AtomicBool),
+    ) -> anyhow::Result<Option<Training>> {
+        let name = name_of(network, self.args.axes);
+        let mut others: Vec<&StrokedTexture> = self.textures.iter().collect();
+        let left_out = others.remove(index);
+        let run = Run {
+            kept: self.kept(&format!("{name}-without-{}", left_out.id)),
+            what: format!("{name} without {} ({} of {})", left_out.id, index + 1, self.textures.len()),
+            until,
+            progress,
+            failed,
+        };
+        train(&others, self.config(network), &run)
     }
 
     fn train_on_all(&self, network: Network) -> anyhow::Result<Training> {
@@ -310,66 +367,4 @@ fn extent_of(
         speed_mm_per_s,
         force_n,
     }
-}
-
-/// Trains to the end or until its time is over, from the saved state if there is one; `None` if another training has
-/// failed.
-fn train(
-    textures: &[&StrokedTexture],
-    config: TrainingConfig,
-    run: &Run<'_>,
-) -> anyhow::Result<Option<Training>> {
-    let Run { what, progress, failed, .. } = run;
-    let n_epochs = config.n_epochs;
-    let mut training = match run.kept.as_ref().filter(|path| path.exists()) {
-        Some(path) => Training::resume(textures, config, &file::read_file(path, FileKind::Network)?)
-            .with_context(|| file::in_file(path))?,
-        None => Training::new(textures, config)?,
-    };
-    let keep = |training: &Training| -> anyhow::Result<()> {
-        if let Some(path) = &run.kept {
-            atomic::write(path, &training.keep()?)?;
-        }
-        Ok(())
-    };
-    let mut done = 1000 * training.epochs().len().min(n_epochs);
-    progress.leave_out(done);
-    // A network is trained on one batch at least, however little time there is.
-    let mut is_begun = training.n_epochs() > 0.0;
-    while !training.is_over() {
-        let started = Instant::now();
-        let before = 1000 * training.epochs().len();
-        let epoch = training.run_epoch(|share| {
-            let now = before + (1000.0 * share) as usize;
-            progress.steps(now.saturating_sub(done));
-            done = done.max(now);
-            let is_late = is_begun && run.until.is_some_and(|until| Instant::now() >= until);
-            is_begun = true;
-            !is_late && !failed.load(Ordering::Relaxed)
-        })?;
-        let Some(epoch) = epoch else {
-            if failed.load(Ordering::Relaxed) {
-                return Ok(None);
-            }
-            output::note(&format!(
-                "{what}: the time is over after {} of {n_epochs} epochs",
-                two_digits(training.n_epochs())
-            ));
-            keep(&training)?;
-            break;
-        };
-        progress.steps((before + 1000).saturating_sub(done));
-        done = before + 1000;
-        let aside = epoch.aside_rmse.map_or(String::new(), |rmse| format!(", validation RMSE {rmse:.2}"));
-        output::note(&format!(
-            "{what}: epoch {} of {n_epochs}, {:.0} s, training RMSE {:.2}{aside}",
-            epoch.number,
-            started.elapsed().as_secs_f64(),
-            epoch.learned_rmse
-        ));
-        keep(&training)?;
-    }
-    // Epochs that an early stop skips.
-    progress.leave_out((1000 * n_epochs).saturating_sub(done));
-    Ok(Some(training))
 }

@@ -1,13 +1,17 @@
 //! `shagreen train photo`: trains predictors of roughness and hardness from pictures and evaluates them.
 
+mod kept_predictions;
+
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context as _, ensure};
 use serde_json::{Value, json};
+use shagreen_core::maths::shard::Shard;
 use shagreen_core::space::LabelSource;
 use shagreen_core::words::counted;
 use shagreen_formats::atomic;
+use shagreen_formats::left_out_prediction::LeftOutPrediction;
 use shagreen_formats::library::USUAL_AXES;
 use shagreen_formats::starter::starter_anchors;
 use shagreen_learn::backbone::Backbone;
@@ -23,9 +27,11 @@ use crate::cli::method_predictions::{Comparison, MethodPredictions};
 use crate::cli::output;
 use crate::cli::prediction_figures::{FigureArgs, Judged};
 use crate::cli::progress::Progress;
-use crate::cli::texture_pictures::{PictureArgs, PicturedTexture, predict_texture};
+use crate::cli::texture_pictures::{PictureArgs, PicturedTexture};
 use crate::cli::train_labelled_photos::{LabelledArgs, Training};
+use crate::cli::train_photo::kept_predictions::KeptPredictions;
 use shagreen_studio::file;
+use shagreen_studio::picture_predictions::predict_texture;
 use shagreen_studio::replace::{refuse_foreign, refuse_inputs};
 
 /// Trains predictors of roughness and hardness from pictures and reports their leave-one-texture-out errors: each
@@ -63,10 +69,20 @@ pub(crate) struct Args {
     /// Random seed of the training and of the random materials.
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Folder for the features of the pictures of random materials and of labelled photos; they are computed only once,
-    /// and an interrupted computation resumes.
+    /// Folder for the features of the pictures of random materials and of labelled photos, and for the predictions without
+    /// each texture; they are computed only once, and an interrupted computation resumes.
     #[arg(long, value_name = "FOLDER")]
     state: Option<PathBuf>,
+    /// Train only without each texture of a part, such as 2/4, and keep the predictions in the folder --state, to divide the
+    /// work among computers. Once all parts are done, the command without --shard, on a folder with all files of these
+    /// folders, evaluates them without training again.
+    #[arg(
+        long,
+        value_name = "I/N",
+        requires = "state",
+        conflicts_with_all = ["out", "photos", "drawn_only", "unjudged", "figures"]
+    )]
+    shard: Option<Shard>,
     /// File to write: a model trained on all pictures, with the image network if there is one, otherwise with
     /// statistics of the picture.
     #[arg(long, short, value_name = "MODEL")]
@@ -139,6 +155,10 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
         n_epochs += taught.n_epochs;
         model = taught.of_all;
     }
+    if let Some(shard) = args.shard {
+        print_part(args, shard, &textures);
+        return Ok(());
+    }
     all.push(MethodPredictions::mean_of_others(&values));
     if let (Some(out), Some(model)) = (&args.out, &model) {
         atomic::write(out, &model.to_bytes()?)?;
@@ -187,6 +207,21 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     drawing
 }
 
+/// Prints which textures a part has predicted.
+fn print_part(args: &Args, shard: Shard, textures: &[PicturedTexture]) {
+    let names: Vec<&str> = shard.indices(textures.len()).map(|index| &*textures[index].name).collect();
+    let state = args.state.as_ref().map(|folder| folder.display().to_string());
+    let result = json!({"shard": shard.to_string(), "state": state, "textures": names});
+    output::print(args.json, &result, || {
+        format!(
+            "Trained without each of {} ({}); when all parts are trained, run the command without --shard: {}",
+            counted(names.len(), "texture"),
+            names.join(", "),
+            state.clone().unwrap_or_default()
+        )
+    });
+}
+
 /// Result of training on one kind of features.
 struct Taught {
     judged: MethodPredictions,
@@ -215,33 +250,49 @@ fn teach(
     let name = eyes.name().to_owned();
     let (lesson, config) = lesson(args, eyes, learned_from);
     let learned: &[Vec<Seen>] = if args.drawn_only { &[] } else { &known };
-    let mut n_epochs = 0;
-    let mut learn = |left_out: Option<usize>| {
+    // A model and the number of its epochs.
+    let learn = |left_out: Option<usize>| -> anyhow::Result<(PictureModel, usize)> {
         let others = learned.iter().enumerate().filter(|(i, _)| Some(*i) != left_out);
         let others = others.flat_map(|(_, pictures)| pictures);
         let pictures: Vec<&Seen> = drawn.iter().chain(others).collect();
-        let before = n_epochs;
-        PictureModel::learn(&pictures, lesson.clone(), &config, |n| {
-            n_epochs = before + n;
+        let mut n_epochs = 0;
+        let model = PictureModel::learn(&pictures, lesson.clone(), &config, |n| {
+            n_epochs = n;
             true
-        })
+        })?;
+        Ok((model, n_epochs))
     };
-    let of_all = if args.out.is_some() || args.drawn_only {
+    let (of_all, mut n_epochs) = if args.out.is_some() || args.drawn_only {
         let _progress = Progress::endless("training on all pictures");
-        Some(learn(None)?)
+        let (model, n_epochs) = learn(None)?;
+        (Some(model), n_epochs)
     } else {
-        None
+        (None, 0)
     };
-    let n_judged = if args.unjudged { 0 } else { known.len() };
-    let progress = Progress::new("training without each texture", n_judged);
-    let (mut predicted, mut deviations) = (Vec::with_capacity(n_judged), Vec::with_capacity(n_judged));
-    for (index, pictures) in known.iter().enumerate().take(n_judged) {
-        let estimates = match &of_all {
-            Some(model) if args.drawn_only => predict_texture(model, pictures)?,
-            _ => predict_texture(&learn(Some(index))?, pictures)?,
-        };
-        predicted.push(estimates.iter().map(|of| of.mean).collect());
-        deviations.push(estimates.iter().map(|of| of.deviation).collect());
+    let shard = args.shard.unwrap_or(Shard::WHOLE);
+    let judged: Vec<usize> = shard.indices(if args.unjudged { 0 } else { known.len() }).collect();
+    let kept = KeptPredictions::new(args.state.as_deref(), (&lesson, &config), &drawn, &known);
+    let predict = |index: usize| -> anyhow::Result<LeftOutPrediction> {
+        let estimates = |model: &PictureModel| predict_texture(model, &known[index]);
+        if let Some(model) = of_all.as_ref().filter(|_| args.drawn_only) {
+            return Ok(LeftOutPrediction { estimates: estimates(model)?, n_epochs: 0 });
+        }
+        if let Some(prediction) = kept.read(index) {
+            return Ok(prediction);
+        }
+        let (model, n_epochs) = learn(Some(index))?;
+        let prediction = LeftOutPrediction { estimates: estimates(&model)?, n_epochs };
+        kept.write(index, &prediction)?;
+        Ok(prediction)
+    };
+    let progress = Progress::new("training without each texture", judged.len());
+    let (mut predicted, mut deviations) =
+        (Vec::with_capacity(judged.len()), Vec::with_capacity(judged.len()));
+    for index in judged {
+        let prediction = predict(index)?;
+        n_epochs += prediction.n_epochs;
+        predicted.push(prediction.estimates.iter().map(|of| of.mean).collect());
+        deviations.push(prediction.estimates.iter().map(|of| of.deviation).collect());
         progress.step();
     }
     progress.finish();

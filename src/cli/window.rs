@@ -7,10 +7,12 @@ use anyhow::bail;
 use directories::{BaseDirs, ProjectDirs};
 use serde_json::json;
 use shagreen_formats::project::{Project, ProjectLibrary};
+use shagreen_studio::doctor::{DisplayFact, DisplayFacts};
 use shagreen_studio::open::{Opened, is_other_kind, is_study_plan, open};
 use shagreen_studio::permitted_libraries::{OutsideLibrary, Permitted};
 use shagreen_studio::project::new_project;
 
+use crate::cli::displays::displays;
 use crate::cli::model_folder::model_folder;
 use crate::cli::output::{self, Printed};
 use crate::cli::own_folder::own_folder;
@@ -53,6 +55,8 @@ pub(crate) struct WindowRequest {
     pub(crate) simulation_seed: Option<u64>,
     /// Number of frames to measure before closing; `None` keeps the window open.
     pub(crate) measured_frames: Option<usize>,
+    /// Whether the window opens on the X11 display, because the Wayland display does not respond.
+    pub(crate) is_on_x11: bool,
     /// Start time of the program.
     pub(crate) started: Instant,
 }
@@ -95,6 +99,12 @@ pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> any
              the commands work without one: see shagreen --help"
         );
     }
+    let is_on_x11 = is_better_on_x11(displays());
+    if is_on_x11 {
+        output::warn(
+            "no Wayland display responds where WAYLAND_DISPLAY says; the window opens on the X11 display",
+        );
+    }
     let named = args.file.as_deref();
     let is_plan = named.is_some_and(is_study_plan);
     if args.simulate_participant.is_some() && !is_plan {
@@ -115,12 +125,18 @@ pub(crate) fn run(args: &Args, started: Instant, open_window: OpenWindow) -> any
         folders,
         simulation_seed: args.simulate_participant,
         measured_frames: args.measure_frames,
+        is_on_x11,
         started,
     })?;
     if args.measure_frames.is_some() {
         report(&times);
     }
     Ok(())
+}
+
+/// Whether only the X11 display responds, although the environment names a Wayland display too.
+fn is_better_on_x11(displays: DisplayFacts) -> bool {
+    displays == DisplayFacts { x11: DisplayFact::Responds, wayland: DisplayFact::Silent }
 }
 
 /// Project to show, with its file and the SHA-256 of the file.
@@ -192,4 +208,24 @@ fn report(times: &FrameTimes) {
         "interval_ms_p95": quantile(&times.interval_secs, 0.95),
     });
     output::print(true, &result, String::new);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{DisplayFact, DisplayFacts, is_better_on_x11};
+
+    #[test]
+    fn the_x11_display_replaces_only_a_wayland_display_that_does_not_respond() {
+        use DisplayFact::{Responds, Silent, Unset, Untried};
+        for (x11, wayland, expected) in [
+            (Responds, Silent, true),
+            (Responds, Responds, false),
+            (Responds, Unset, false),
+            (Silent, Silent, false),
+            (Untried, Silent, false),
+            (Unset, Silent, false),
+        ] {
+            assert_eq!(is_better_on_x11(DisplayFacts { x11, wayland }), expected, "{x11:?} {wayland:?}");
+        }
+    }
 }

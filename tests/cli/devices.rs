@@ -259,3 +259,33 @@ fn a_recorded_pen_partner_draws_a_plausible_stroke() {
     }
     bench.json(&format!("render --texture cork --stroke {} --seed 1 -o a.wav", file.display()));
 }
+
+#[test]
+fn a_haptic_pen_is_no_pen_to_read_but_an_output() {
+    use shagreen_device::haptic_pen::simulated::{LISTING_PEN, STATING_PEN};
+    let bench = Bench::new();
+    bench.write("listing.bin", LISTING_PEN);
+    bench.write("stating.bin", STATING_PEN);
+    let found = bench.json("devices --descriptor listing.bin stating.bin");
+    let haptic = |index: usize| &found["descriptors"][index]["haptic"];
+    assert_eq!(haptic(0), &json!({"entries": 6, "waveforms": [], "intensity": true, "automatic": true}));
+    let waveforms = ["click", "ball pen"];
+    assert_eq!(
+        haptic(1),
+        &json!({"entries": 2, "waveforms": waveforms, "intensity": true, "automatic": false})
+    );
+    let said = bench.run("devices --descriptor listing.bin stating.bin");
+    assert!(said.stdout.contains("listing.bin: haptic output with up to 6 waveforms"), "{}", said.stdout);
+}
+
+#[test]
+fn each_stylus_says_how_it_is_read_and_what_it_provides() {
+    let devices = Bench::new().json("devices");
+    let styluses = devices["styluses"].as_array().unwrap();
+    assert_eq!((&styluses[0]["backend"], &styluses[1]["backend"]), (&json!("mouse"), &json!("window")));
+    for stylus in styluses {
+        assert!(stylus["provides"].as_str().unwrap().contains("position"), "{stylus}");
+        let is_refused = ["denied", "exclusive"].contains(&stylus["access"].as_str().unwrap());
+        assert_eq!(stylus["advice"].is_string(), is_refused, "{stylus}");
+    }
+}

@@ -129,3 +129,37 @@ fn what_cannot_be_evaluated_is_one_sentence() {
     bench.write("notes.txt", "x");
     fails("--figures notes.txt", 1, &["folder", "notes.txt"]);
 }
+
+/// Parts that several computers make are the whole evaluation, to the last digit.
+#[test]
+fn parts_of_an_evaluation_are_the_whole() {
+    let bench = Bench::new();
+    let options = "--blend power --signals 2 --seconds 4";
+    let whole = bench.json(&format!("evaluate leave-one-out {options}"));
+    let mut n = 0;
+    for shard in [1, 2] {
+        let part = bench
+            .json(&format!("evaluate leave-one-out {options} --shard {shard}/2 --part part{shard}.json"));
+        n += part["n"].as_u64().unwrap();
+        assert_eq!(part["of"], whole["n"]);
+    }
+    assert_eq!(n, whole["n"].as_u64().unwrap());
+    let joined = bench
+        .json(&format!("evaluate leave-one-out {options} --merge part2.json part1.json --figures plots"));
+    assert_eq!(joined, whole);
+    assert!(bench.path("plots/methods.csv").is_file());
+    let fails = |arguments: &str, code: i32, words: &[&str]| {
+        bench.fails(&format!("evaluate leave-one-out {arguments}"), code, words);
+    };
+    fails(&format!("{options} --merge part1.json"), 1, &["part 2/2 is missing"]);
+    fails(&format!("{options} --merge part1.json part1.json"), 1, &["part 1/2 is given twice"]);
+    fails(
+        &format!("{options} --seed 2 --merge part1.json part2.json"),
+        1,
+        &["another evaluation", "part1.json"],
+    );
+    fails(&format!("{options} --shard 1/2"), 2, &["--part"]);
+    fails(&format!("{options} --shard 0/2 --part x.json"), 2, &["part 0 of 2 does not exist"]);
+    bench.write("notes.json", "{}");
+    fails(&format!("{options} --shard 1/2 --part notes.json"), 1, &["would replace"]);
+}

@@ -143,7 +143,7 @@ const CASES: [Case; 8] = [
         files: &["b.json"],
     },
     Case {
-        arguments: "export --texture cork --format hatt -o cork.xml",
+        arguments: "export --texture cork --format hatt --replace -o cork.xml",
         variants: ["", ""],
         files: &["cork.xml"],
     },

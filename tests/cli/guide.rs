@@ -87,6 +87,15 @@ fn give(bench: &Bench, page: &str, lines: &[String]) {
     if takes("map.toml") {
         bench.write("map.toml", block(page, "toml"));
     }
+    if takes("pairs.csv") {
+        bench.write("pairs.csv", block(page, "csv"));
+    }
+    if takes("batch.toml") {
+        bench.write("batch.toml", block(page, "toml"));
+    }
+    if takes("buzz.haptic") {
+        bench.write("buzz.haptic", crate::clips::clip());
+    }
     if takes("a.csv") {
         recording(bench, "a.csv", ";");
         recording(bench, "b.csv", ";");

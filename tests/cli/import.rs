@@ -477,3 +477,14 @@ fn real_recordings_that_cannot_be_modelled_say_why() {
         }
     }
 }
+
+#[test]
+fn a_texture_without_a_name_is_refused() {
+    let bench = Bench::new();
+    for name in ["", " "] {
+        let mut command = bench.command("import recording stroke.csv --out library.json --name");
+        let output = command.arg(name).output().unwrap();
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.code() == Some(2) && said.contains("a texture needs a name"), "{said}");
+    }
+}

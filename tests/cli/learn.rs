@@ -368,6 +368,17 @@ fn a_model_of_pictures_is_trained_kept_and_used() {
     // Saved features are reused, and more are added to them.
     let again = bench.json(&format!("{train} --drawn 6"));
     assert_eq!(again["baselines"], said["baselines"], "the same seed");
+    // The parts of a training are the whole, which then trains nothing again.
+    let in_parts = train.replace("--state kept", "--state parts");
+    let parts = [1, 2].map(|part| bench.json(&format!("{in_parts} --drawn 6 --shard {part}/2")));
+    assert_eq!(parts.map(|part| part["textures"].as_array().unwrap().len()), [13, 12]);
+    let prediction = bench.path("parts/photo-statistics-of-the-picture-without-025.json");
+    let before = std::fs::metadata(&prediction).unwrap().modified().unwrap();
+    let joined = bench.json(&format!("{in_parts} --drawn 6"));
+    assert_eq!((&joined["baselines"], &joined["epochs"]), (&again["baselines"], &again["epochs"]));
+    assert_eq!(std::fs::metadata(&prediction).unwrap().modified().unwrap(), before);
+    bench.fails("train photo --backbone none --shard 1/2", 2, &["--state"]);
+    bench.fails(&format!("{in_parts} --shard 1/2 -o m.safetensors"), 2, &["--shard"]);
     assert_eq!(std::fs::read(bench.path("kept/drawn-1.safetensors")).unwrap(), kept);
     bench.json(&format!("{train} --drawn 8"));
     assert!(std::fs::read(bench.path("kept/drawn-1.safetensors")).unwrap().len() > kept.len());

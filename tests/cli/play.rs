@@ -112,6 +112,27 @@ fn a_channel_that_is_not_there_is_refused() {
     let bench = Bench::new();
     bench.fails("play --texture cork --seconds 0.2 --channel 9", 1, &["no channel 9", "`null` has 2"]);
     bench.json("play --texture cork --seconds 0.2 --channel 2");
+    // Channels by name: the silent output has two.
+    let front_right =
+        bench.command("play --texture cork --seconds 0.2 --json --channel").arg("front right").output();
+    assert!(front_right.unwrap().status.success());
+    let controller = "play --texture cork --seconds 0.2 --actuator dualsense";
+    bench.fails(
+        &format!("{controller} --channel tail"),
+        1,
+        &["no channel \"tail\"", "left grip, right grip"],
+    );
+    bench.fails(&format!("{controller} --channel 1"), 1, &["names no channel 1", "3 (left grip)"]);
+    bench.fails(&format!("{controller} --channel 3"), 1, &["`null` has 2 channels", "needs 4"]);
+    let said = bench.run(&format!("{controller} --json"));
+    assert!(
+        said.stderr.contains("`null` has 2 channels, and the profile of the actuator needs 4"),
+        "{said:?}"
+    );
+    assert!(said.code == 0 && said.stderr.contains("calibrate it"), "{said:?}");
+    let shown = bench.json("actuator show dualsense");
+    assert_eq!(shown["channels"][1], serde_json::json!({"number": 4, "name": "right grip"}));
+    assert!(shown["f0_hz"].is_null());
 }
 
 /// The sound library of the system writes no lines of its own beside the error.

@@ -110,6 +110,10 @@ fn every_texture_of_a_library_is_told_at_every_rate() {
     let level = numbers("level_db_mean");
     assert!(level.is_sorted() && level[0] > -3.0 && level[0] < -1.0 && level[4] < 0.0, "{level:?}");
     assert!(d_prime.is_sorted_by(|a, b| a > b), "{d_prime:?}");
+    // A part has the rows of the whole.
+    let part = bench.json("evaluate codec --seconds 0.8 --shard 2/13");
+    assert_eq!(part["textures"], serde_json::json!([textures[1], textures[14]]));
+    bench.fails("evaluate codec --shard 30/30", 1, &["the part 30/30 has none of the 25 textures"]);
 }
 
 #[test]

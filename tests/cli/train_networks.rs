@@ -133,3 +133,31 @@ fn a_network_of_three_axes_is_trained_on_recordings_and_predicts_from_them() {
     let words = ["three columns of acceleration", ids[0].as_str()];
     bench.fails(&format!("train attributes {options} --axes three --epochs 1"), 1, &words);
 }
+
+/// Networks that several computers train are those of one run: the last run only evaluates them.
+#[test]
+fn parts_of_a_training_are_the_whole() {
+    let bench = Bench::new();
+    let ids = five(&bench);
+    for (index, id) in ids.iter().enumerate() {
+        bench.write(&format!("made/{id}.csv"), stroke(&["a"], 0.3 * index as f64, index as u32 + 1));
+    }
+    bench.write("made/table.csv", format!("texture,recording\n{}", lines(&ids)));
+    let train = "train attributes --library five.json --recordings made/table.csv --set acceleration_unit=m/s^2 --network 1d-cnn --epochs 1 --patience 0";
+    let whole = bench.json(train);
+    let mut trained = Vec::new();
+    for shard in ["2/2", "1/2"] {
+        let part = bench.json(&format!("{train} --state parts --shard {shard}"));
+        trained.extend(part["textures"].as_array().unwrap().iter().map(|id| id.as_str().unwrap().to_owned()));
+    }
+    trained.sort();
+    let mut expected = ids;
+    expected.sort();
+    assert_eq!(trained, expected);
+    let said = bench.run(&format!("{train} --state parts --json"));
+    assert!(said.code == 0 && !said.stderr.contains("epoch 1 of"), "{}", said.stderr);
+    let joined: Value = serde_json::from_str(&said.stdout).unwrap();
+    assert_eq!(joined["baselines"], whole["baselines"]);
+    bench.fails(&format!("{train} --shard 1/2"), 2, &["--state"]);
+    bench.fails(&format!("{train} --state parts --shard 1/2 -o net.safetensors"), 2, &["--out"]);
+}

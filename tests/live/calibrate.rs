@@ -319,7 +319,7 @@ fn the_built_in_actuators_are_listed_and_shown() {
     let bench = Bench::new();
     let listed = bench.json("actuator list");
     let actuators = listed["actuators"].as_array().unwrap();
-    assert_eq!(actuators.len(), 4);
+    assert_eq!(actuators.len(), 6);
     assert!(actuators.iter().all(|a| !a["source"].as_str().unwrap().is_empty()));
     let shown = bench.json("actuator show haptuator-mark-ii --rate 2000");
     // The same sections as in vectors/b_act; the profile has six digits.

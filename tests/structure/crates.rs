@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 /// Every crate of the workspace, and the workspace crates that it may use.
 const MAY_USE: &[(&str, &[&str])] = &[
     ("shagreen-synth", &[]),
+    ("shagreen-runtime", &["shagreen-synth"]),
     ("shagreen-core", &["shagreen-synth"]),
     ("shagreen-formats", &["shagreen-core"]),
     ("shagreen-device", &["shagreen-synth"]),
@@ -16,6 +17,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
         "shagreen-app",
         &["shagreen-core", "shagreen-formats", "shagreen-device", "shagreen-learn", "shagreen-studio"],
     ),
+    ("shagreen-python", &["shagreen-core", "shagreen-formats", "shagreen-studio"]),
     (
         "shagreen",
         &[
@@ -82,6 +84,8 @@ fn no_crate_depends_upwards() {
 fn the_gate_can_fail() {
     let upwards = "[package]\nname = \"shagreen-device\"\n[dependencies]\nshagreen-core.workspace = true\n";
     assert_eq!(broken_rules(upwards), ["shagreen-device must not depend on shagreen-core"]);
+    let runtime = "[package]\nname = \"shagreen-runtime\"\n[dependencies]\nshagreen-core.workspace = true\n";
+    assert_eq!(broken_rules(runtime), ["shagreen-runtime must not depend on shagreen-core"]);
     let on_one_platform =
         "[package]\nname = \"shagreen-synth\"\n[target.'cfg(unix)'.dependencies]\nshagreen-core = \"0\"\n";
     assert_eq!(broken_rules(on_one_platform), ["shagreen-synth must not depend on shagreen-core"]);

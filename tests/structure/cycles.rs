@@ -9,12 +9,14 @@ use std::path::Path;
 use crate::source_tree::{ModulePath, SourceTree};
 
 /// Folders of the source files of the checked crates.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 10] = [
     "crates/app/src",
     "crates/core/src",
     "crates/device/src",
     "crates/formats/src",
     "crates/learn/src",
+    "crates/python/src",
+    "crates/runtime-c/src",
     "crates/studio/src",
     "crates/synth/src",
     "src",

@@ -54,7 +54,7 @@ fn check_folder(folder: &Path, root: &Path, found: &mut Vec<String>) {
 fn files_are_read_with_a_bound() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut found = Vec::new();
-    for name in ["app", "core", "device", "formats", "learn", "studio", "synth"] {
+    for name in ["app", "core", "device", "formats", "learn", "python", "runtime-c", "studio", "synth"] {
         check_folder(&root.join("crates").join(name).join("src"), root, &mut found);
     }
     check_folder(&root.join("src"), root, &mut found);

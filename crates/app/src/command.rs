@@ -35,7 +35,7 @@ use crate::state::compare::{CompareCommand, Side};
 use crate::state::edit::Edit;
 use crate::state::figure_file::FigureFile;
 use crate::state::rig::Rig;
-use crate::strings::{about, axes as axes_words, networks as networks_words, relief as relief_words};
+use crate::strings::{about, axes as axes_words, networks as networks_words, papers, relief as relief_words};
 use crate::workspace::Workspace;
 
 /// Command of the user, executed after the frame.
@@ -130,6 +130,8 @@ pub enum Command {
     OpenPalette,
     /// Opens the guide.
     OpenGuide,
+    /// Opens the sheet that repeats the procedures of papers.
+    OpenPapers,
     /// Shows version, licenses, and paths of files.
     OpenAbout,
     /// Starts the tour.
@@ -268,7 +270,7 @@ const FILES_AND_EDITS: [Command; 12] = [
     Command::Redo,
 ];
 
-const OTHERS: [Command; 32] = [
+const OTHERS: [Command; 33] = [
     Command::Clipboard(ClipboardCommand::Copy(None)),
     Command::Clipboard(ClipboardCommand::Cut(None)),
     Command::Clipboard(ClipboardCommand::Paste),
@@ -300,6 +302,7 @@ const OTHERS: [Command; 32] = [
     Command::OpenGuide,
     Command::OpenShortcuts,
     Command::BeginTour,
+    Command::OpenPapers,
     Command::OpenAbout,
 ];
 
@@ -365,6 +368,7 @@ impl Command {
             Self::OpenGuide => Entry::new("Open the guide"),
             Self::OpenShortcuts => Entry::new("Keyboard shortcuts").key(Key::F1),
             Self::BeginTour => Entry::new("Start the tour"),
+            Self::OpenPapers => Entry::new(papers::COMMAND),
             Self::OpenAbout => Entry::new(about::ABOUT),
             _ => return None,
         })

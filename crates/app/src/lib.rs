@@ -16,8 +16,6 @@ use std::cell::RefCell;
 use std::rc::Rc;
 use std::time::Instant;
 
-use anyhow::anyhow;
-
 pub use crate::window::{Begin, WindowTimes};
 
 pub mod author;
@@ -25,6 +23,7 @@ mod browse;
 pub mod build;
 pub mod choices;
 pub mod command;
+mod display;
 mod figure_ui;
 pub mod look;
 pub mod panel;
@@ -48,6 +47,8 @@ pub struct Start {
     /// Number of frames to measure with the automatic stroke and the scope running; the window then closes. With `None`
     /// it stays open.
     pub measured_frames: Option<usize>,
+    /// Whether to open the window on the X11 display although the environment names a Wayland display (Linux).
+    pub is_on_x11: bool,
     /// Start time of the program, from which the first frame is timed.
     pub started: Instant,
 }
@@ -63,8 +64,12 @@ pub fn run(start: Start) -> anyhow::Result<WindowTimes> {
         .with_app_id("shagreen")
         .with_inner_size([1280.0, 720.0])
         .with_min_inner_size([960.0, 600.0]);
-    let options =
-        eframe::NativeOptions { viewport, system_font_fallback: true, ..eframe::NativeOptions::default() };
+    let options = eframe::NativeOptions {
+        viewport,
+        system_font_fallback: true,
+        event_loop_builder: display::builder_hook(start.is_on_x11),
+        ..eframe::NativeOptions::default()
+    };
     let times = Rc::new(RefCell::new(WindowTimes::default()));
     let measured = Rc::clone(&times);
     eframe::run_native(
@@ -81,6 +86,6 @@ pub fn run(start: Start) -> anyhow::Result<WindowTimes> {
             )))
         }),
     )
-    .map_err(|error| anyhow!("the window could not be opened: {error}"))?;
+    .map_err(|error| display::not_opened(&error))?;
     Ok(times.take())
 }

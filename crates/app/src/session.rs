@@ -333,6 +333,7 @@ impl Session {
 
     /// Starts workers for waiting jobs, once a frame.
     pub fn begin_work(&mut self, ctx: &egui::Context) {
+        self.hand.pen.set_focus(ctx.input(|i| i.focused));
         self.authored.models.begin(ctx);
         self.textures.planes_ahead.begin(ctx);
     }

@@ -13,6 +13,7 @@ pub(crate) mod networks_sheet;
 pub(crate) mod open_sheet;
 pub(crate) mod outside_library;
 pub(crate) mod palette;
+pub(crate) mod papers_sheet;
 pub(crate) mod path_field;
 pub(crate) mod recovered_ui;
 pub(crate) mod relief_choice;
@@ -51,6 +52,7 @@ use crate::sheets::networks_sheet::NetworksSheet;
 use crate::sheets::open_sheet::OpenSheet;
 use crate::sheets::outside_library::OutsideLibrarySheet;
 use crate::sheets::palette::PaletteSheet;
+use crate::sheets::papers_sheet::PapersSheet;
 use crate::sheets::recovered_ui::recovered_ui;
 use crate::sheets::relief_choice::ReliefChoice;
 use crate::sheets::relief_sheet::ReliefSheet;
@@ -83,7 +85,7 @@ pub(crate) enum Sheet {
     Devices(Box<DevicesSheet>),
     /// Networks that predict attributes from photos.
     Networks(Box<NetworksSheet>),
-    /// Opens a project, library, stroke or signal.
+    /// Opens a project, library, stroke, signal or model of d'.
     Open(OpenSheet),
     /// Opens an example project.
     Gallery(GallerySheet),
@@ -96,6 +98,8 @@ pub(crate) enum Sheet {
     /// Keyboard shortcuts.
     Shortcuts,
     Guide(Box<GuideSheet>),
+    /// Repeats the procedures of papers.
+    Papers(Box<PapersSheet>),
     /// Version, licenses, and paths of files.
     About(AboutSheet),
     /// Searches for a command.
@@ -178,6 +182,7 @@ impl Sheet {
             Self::Relief(sheet) => sheet.show(ctx),
             Self::Shortcuts => shortcuts_ui(ctx).into_iter().collect(),
             Self::Guide(sheet) => sheet.show(ctx),
+            Self::Papers(sheet) => sheet.show(ctx).into_iter().collect(),
             Self::About(sheet) => sheet.show(ctx).into_iter().collect(),
             Self::Palette(sheet) => sheet.show(ctx),
             Self::Leaving(leave) => leaving_ui(ctx, *leave, &document.name(), document.is_changed()),

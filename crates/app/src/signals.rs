@@ -7,6 +7,8 @@ mod editor_ui;
 mod features_ui;
 mod figures;
 mod maps;
+mod model_choice;
+mod model_ui;
 mod number_ui;
 pub mod page;
 mod playing;

@@ -25,6 +25,7 @@ pub mod import;
 pub mod map;
 pub mod motion;
 pub mod networks;
+pub mod papers;
 pub mod path;
 pub mod prompt;
 pub mod relief;
@@ -300,7 +301,7 @@ pub fn solo(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{build, devices, document, export, import, lies_at, networks, stroke};
+    use super::{build, devices, document, export, import, lies_at, networks, papers, stroke};
     use shagreen_core::space::SpacePoint;
 
     #[test]
@@ -328,6 +329,7 @@ mod tests {
             export::FOLDER_HINT,
             import::SAVE_HINT,
             networks::FILE_HINT,
+            papers::FOLDER_HINT,
             stroke::SAVE_HINT,
             stroke::OPEN_HINT,
         ] {

@@ -2,6 +2,7 @@
 
 mod author_page;
 mod axes;
+mod begin;
 mod clipboard;
 mod commands;
 mod escape;
@@ -26,10 +27,10 @@ mod studies;
 mod title_bar;
 pub mod tour;
 
+pub use self::begin::Begin;
 use self::focus_ring::focus_ring_ui;
 use self::gesture_counter::GestureCounter;
-use self::hints::recall_hints;
-use self::rig::{SelectedOutput, open_as_left};
+use self::rig::SelectedOutput;
 pub use self::stopwatch::WindowTimes;
 
 use std::path::PathBuf;
@@ -37,27 +38,24 @@ use std::sync::Arc;
 
 use egui::{Frame, Margin, Panel as Side, Ui};
 use shagreen_formats::project::{AuthoredTexture, Project};
-use shagreen_studio::models::ModelFolder;
 
 use crate::author::canvas::point_id;
 use crate::author::context_menu::note_open_menu;
 use crate::author::prompt::Prompts;
 use crate::build::page::BuildPage;
 use crate::command::{Command, FileCommand, pressed};
-use crate::look::icons;
-use crate::look::motion::set_reduced;
 use crate::look::scale::Scale;
-use crate::look::theme::{install, tokens};
+use crate::look::theme::tokens;
 use crate::look::tooltips::follow_drags;
 use crate::panel::Panel;
-use crate::session::{OutputChoice, Session};
+use crate::session::Session;
 use crate::sheets::Sheet;
 use crate::sheets::import::sheet::ImportSheet;
 use crate::signals::page::SignalsPage;
 use crate::state::compare::Compare;
-use crate::state::document::{Document, DocumentFile};
+use crate::state::document::Document;
 use crate::state::edit::Edit;
-use crate::state::files::{Files, StoragePaths};
+use crate::state::files::Files;
 use crate::state::history::History;
 use crate::state::photo::PhotoReader;
 use crate::state::pictures::Pictures;
@@ -73,24 +71,6 @@ use crate::workspace::Workspace;
 const STATUS_HEIGHT: f32 = 32.0;
 /// Interval between frames while the window is idle, so that the status bar stays current.
 const IDLE: std::time::Duration = std::time::Duration::from_secs(4);
-
-/// Initial content of the window.
-#[derive(Clone, Debug)]
-pub struct Begin {
-    /// Open project.
-    pub project: Project,
-    /// File of the project, or `None` for an unsaved project.
-    pub file: Option<DocumentFile>,
-    /// File to open or import at the start: a recording, a model, a stroke, a photo, or a project about which a question
-    /// must be answered first.
-    pub take: Option<PathBuf>,
-    /// Output to open.
-    pub output: OutputChoice,
-    /// Paths of the files that outlive the program.
-    pub keeping: StoragePaths,
-    /// Seed of a simulated participant who takes part in the study of the file to open.
-    pub simulation_seed: Option<u64>,
-}
 
 /// Readers of files, in the background.
 #[derive(Default)]
@@ -124,66 +104,6 @@ pub struct Window {
 }
 
 impl Window {
-    /// Opens a window on a project; the output is opened in the background.
-    ///
-    /// # Errors
-    /// The library cannot be read, or its positions do not form a space.
-    pub fn new(ctx: &egui::Context, begin: Begin) -> anyhow::Result<Self> {
-        install(ctx);
-        icons::install(ctx);
-        let Begin { mut project, file, take, output, keeping, simulation_seed } = begin;
-        // A new project on a library has a point in the middle of the usual axes.
-        project.fit_points();
-        let mut session = Session::new(project.library.clone())?;
-        session.list_outputs(ctx);
-        let leftovers = Files::leftovers(&keeping);
-        // Without a settings file the tour would start at every program start, so it is not shown.
-        let can_remember = keeping.settings.is_some();
-        let sheet = if leftovers.is_empty() { Sheet::Closed } else { Sheet::Recovered(leftovers) };
-        let mut prompts = Prompts::new(keeping.models.clone().map(ModelFolder::new));
-        let files = Files::new(&project, file, keeping);
-        prompts.use_networks(files.settings.photo_networks.clone());
-        let selected_output = SelectedOutput::at_start(&output);
-        open_as_left(&mut session, output, &files, ctx);
-        session.follow(&project, None, ctx);
-        let pictures = Pictures::new(project.library.clone(), &project.joined, session.textures());
-        recall_hints(&files.settings, ctx);
-        set_reduced(ctx, files.reduces_motion());
-        let is_new_here = can_remember && !files.settings.has_seen_tour;
-        let mut tour = Tour::default();
-        if is_new_here {
-            tour.begin();
-        }
-        if let Some(is_light) = files.settings.is_light {
-            ctx.set_theme(if is_light { egui::Theme::Light } else { egui::Theme::Dark });
-        }
-        let scale = Scale::new(files.settings.scale);
-        ctx.set_zoom_factor(scale.set());
-        let mut pages = Pages::default();
-        pages.studies.simulate(simulation_seed);
-        Ok(Self {
-            project,
-            history: History::default(),
-            session,
-            pictures,
-            readers: Readers::default(),
-            prompts,
-            files,
-            compare: Compare::by_chance(),
-            scale,
-            has_been_shown: false,
-            gesture: GestureCounter::default(),
-            sheet,
-            tour,
-            pages,
-            // Without a current folder, the user completes the path.
-            exports_folder: std::env::current_dir().unwrap_or_default(),
-            output: selected_output,
-            preview: Preview::default(),
-            take,
-        })
-    }
-
     /// Open project.
     pub fn project(&self) -> &Project {
         &self.project
@@ -258,6 +178,7 @@ impl Window {
         follow_drags(&ctx);
         self.session.update(self.pages.stage.pad.contact(&self.session));
         self.pages.collect(&ctx);
+        self.pages.signals.store_model(&mut self.files.settings.quality_model);
         self.collect_files(&ctx);
         self.collect_photo(&ctx);
         self.collect_prompt(&ctx);

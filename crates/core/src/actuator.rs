@@ -5,9 +5,11 @@
 
 pub mod calibration;
 mod friction_display;
+mod named_channel;
 mod voice_coil;
 
 pub use crate::actuator::friction_display::{FRICTION_CARRIERS_HZ, FRICTION_CHANNELS, FrictionDisplay};
+pub use crate::actuator::named_channel::{MAX_CHANNEL, NamedChannel};
 pub use crate::actuator::voice_coil::{
     Actuator, ActuatorError, Calibrated, DataSheet, Drive, Headroom, Limits, LimitsWarning, Measured,
     Mechanics, Physical, Response, USUAL_LOWEST, USUAL_THERMAL_SECS, drive_config, inverse,

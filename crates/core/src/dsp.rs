@@ -5,6 +5,7 @@
 
 pub mod ar;
 pub mod arma;
+pub mod band_power;
 pub mod contact_patch;
 pub mod dft321;
 pub mod filter;

@@ -1,4 +1,5 @@
-//! Mathematics independent of haptics: random numbers, statistics, hypothesis tests, regression and plane geometry.
+//! Mathematics independent of haptics: random numbers, parts of lists, statistics, hypothesis tests, regression and plane
+//! geometry.
 //!
 //! Input: slices and matrices of `f64`. Output: numbers, fitted models and triangulations.
 
@@ -17,6 +18,7 @@ pub mod procrustes;
 pub mod radial_basis;
 pub mod ridge;
 pub mod rng;
+pub mod shard;
 pub(crate) mod smoother;
 pub mod statistics;
 pub(crate) mod sums;

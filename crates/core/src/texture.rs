@@ -23,8 +23,8 @@ pub mod stick_slip;
 pub mod tap;
 
 pub use crate::texture::limits::{
-    FORCES_N, GAINS, LEVELS_MPS2, MAX_NODES, MAX_ORDER, MAX_RADIAL_NODES, MIN_LSF_GAP, MIN_NODE_DISTANCE,
-    MIN_PUBLISHED_LSF_GAP, RATES_HZ, SPEEDS_MPS, VARIANCES,
+    FORCES_N, GAINS, LEVELS_MPS2, MAX_MA_ORDER, MAX_NODES, MAX_ORDER, MAX_RADIAL_NODES, MIN_LSF_GAP,
+    MIN_NODE_DISTANCE, MIN_PUBLISHED_LSF_GAP, RATES_HZ, SPEEDS_MPS, VARIANCES,
 };
 #[cfg(test)]
 pub(crate) use crate::texture::model::test_textures;

@@ -2,8 +2,7 @@
 
 /// Number of names that a message lists before it counts the rest.
 const N_NAMED: usize = 3;
-
-/// Largest number of suggestions.
+/// Largest number of suggestions for an unknown name.
 const MOST_SUGGESTED: usize = 3;
 /// Longest name for which similar ones are searched, in bytes: the search takes time in proportion to it.
 const LONGEST_SOUGHT: usize = 100;
@@ -81,6 +80,7 @@ mod tests {
         assert_eq!(near(["rough-smooth", "hard-soft"], "Rough-Smoth"), ["rough-smooth"]);
         assert_eq!(near(["flat-rubber", "cork", "corks"], "cork"), ["cork", "corks"]);
         assert_eq!(near(["flat-rubber"], "rubber"), ["flat-rubber"], "a part of a name");
+        assert_eq!(near(["a", "b", "c", "d"], "e"), ["a", "b", "c"]);
         assert!(near(["cork"], "zzzzzzzz").is_empty() && near(["cork"], &"cork".repeat(50)).is_empty());
     }
 

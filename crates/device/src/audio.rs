@@ -114,22 +114,36 @@ pub(crate) fn devices(way: Way) -> Vec<Listed> {
     #[cfg(target_os = "linux")]
     crate::alsa_messages::silence();
     let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Disconnected.
-    hosts.flat_map(|host| devices_of(&host, way)).collect()
+    hosts.flat_map(|host| devices_of(&host, way)).map(|(listed, _)| listed).collect()
 }
 
-fn devices_of(host: &cpal::Host, way: Way) -> Vec<Listed> {
+/// Outputs of all available audio interfaces that the system does not open, with the reasons. Each is queried for its
+/// formats, and none plays.
+pub(crate) fn list_refused() -> Vec<(String, DeviceError)> {
+    #[cfg(target_os = "linux")]
+    crate::alsa_messages::silence();
+    let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Disconnected.
+    let devices = hosts.flat_map(|host| devices_of(&host, Way::Out));
+    let refused = |(Listed { id, .. }, device): (Listed, cpal::Device)| {
+        let error = refusal(&id, &device)?;
+        Some((id, error))
+    };
+    devices.filter_map(refused).collect()
+}
+
+fn devices_of(host: &cpal::Host, way: Way) -> Vec<(Listed, cpal::Device)> {
     let default = way.default_of(host);
     let default_id = default.as_ref().and_then(|device| device.id().ok()); // Disconnected.
     // Not every audio interface lists its default among its devices.
     let found = host.devices().into_iter().flatten().filter(|device| way.is_supported_by(device));
-    let mut listed: Vec<Listed> = Vec::new();
+    let mut listed: Vec<(Listed, cpal::Device)> = Vec::new();
     for device in default.into_iter().chain(found) {
         let Ok(id) = device.id() else { continue };
         let is_default = Some(&id) == default_id.as_ref();
         let id = id.to_string();
         let is_device = !ALSA_CONVERTERS.contains(&id.as_str()) && !is_by_number(&id);
-        if is_device && listed.iter().all(|other| other.id != id) {
-            listed.push(Listed { id, name: device.to_string(), is_default });
+        if is_device && listed.iter().all(|(other, _)| other.id != id) {
+            listed.push((Listed { id, name: device.to_string(), is_default }, device));
         }
     }
     listed
@@ -201,6 +215,18 @@ fn configs_of(id: &str, device: &cpal::Device) -> Result<Vec<SupportedStreamConf
         .supported_output_configs()
         .map_err(|error| explain(Way::Out, id, "queried for its formats", &error))?;
     Ok(configs.collect())
+}
+
+/// Why an output cannot be opened; `None` if the system states its formats.
+fn refusal(id: &str, device: &cpal::Device) -> Option<DeviceError> {
+    match configs_of(id, device) {
+        Ok(configs) if configs.is_empty() => {
+            let message = format!("the output `{id}` has no stream format; choose another output");
+            Some(DeviceError::new(DeviceErrorKind::Unsupported, message))
+        }
+        Ok(_) => None,
+        Err(error) => Some(error),
+    }
 }
 
 type Built = (Handle, cpal::Stream, f64, Arc<Shared>);

@@ -42,6 +42,7 @@ mod edge;
 pub mod engine;
 pub mod error;
 pub mod hand;
+pub mod haptic_pen;
 pub mod hid;
 pub mod impact;
 pub mod kinematics;
@@ -49,9 +50,11 @@ mod link;
 pub mod live;
 pub mod measure;
 mod null_output;
+pub mod operating_system;
 pub mod output;
 mod output_claim;
 mod output_options;
+pub mod pen_backend;
 pub mod pressure;
 #[cfg(target_os = "linux")]
 mod pulse;
@@ -60,12 +63,13 @@ mod running;
 pub mod sensor;
 pub mod serial;
 pub mod signal;
+pub mod sound_server;
 pub mod status;
 pub mod stylus;
 pub mod texture;
 pub mod touch;
 pub mod track;
-mod urgency;
+pub mod urgency;
 
 /// Rendering types that an engine takes: `Mix`, `Contact`, `DriveConfig`, `Node`, `Tap`, `Triangle`.
 pub use shagreen_synth as synth;

@@ -7,14 +7,20 @@
 //! would add up.
 
 use std::borrow::Cow;
+use std::sync::Arc;
+use std::sync::mpsc::channel;
 
-use crate::engine::Handle;
+use crate::engine::{ChannelMask, Handle};
 use crate::error::{DeviceError, DeviceErrorKind};
+use crate::haptic_pen;
+use crate::haptic_pen::sender::{HapticMonitor, HapticSender};
+use crate::haptic_pen::translator::{Translator, WINDOW_SECS};
 use crate::null_output::NullOutput;
 use crate::output_claim::Claim;
 use crate::output_options::make_engine;
 use crate::running::RunningFacts;
 use crate::serial::SerialOptions;
+use crate::sound_server::SoundServer;
 
 pub use crate::output_options::{
     BUFFER_FRAMES, OpenOptions, OutputInfo, OutputKind, UNCALIBRATED_FULL_SCALE_MPS2, USUAL_BUFFER_FRAMES,
@@ -39,7 +45,36 @@ pub fn list_outputs() -> Vec<OutputInfo> {
     let has_default = outputs.iter().any(|output| output.is_default);
     let audio = crate::audio::list().into_iter();
     outputs.extend(audio.map(|o| OutputInfo { is_default: o.is_default && !has_default, ..o }));
+    // A system that cannot list its devices has no haptic pen to play on.
+    let pens = haptic_pen::system::list().unwrap_or_default().into_iter();
+    outputs.extend(pens.map(|pen| OutputInfo {
+        name: format!("{} (haptic pen: approximation)", pen.name),
+        id: pen.id,
+        kind: OutputKind::HapticPen,
+        is_default: false,
+    }));
+    outputs.push(OutputInfo {
+        id: haptic_pen::system::SIMULATED_ID.into(),
+        name: "Simulated haptic pen (plays nothing)".into(),
+        kind: OutputKind::HapticPen,
+        is_default: false,
+    });
     outputs
+}
+
+/// Audio outputs of [`list_outputs`] that the system does not open, by id, with the reasons. An output of a sound server
+/// that responds is none of them. Each other one is queried for its formats, and none plays.
+pub fn list_refused_outputs() -> Vec<(String, DeviceError)> {
+    crate::audio::list_refused()
+}
+
+/// Asks the sound server of this session for its name.
+pub fn sound_server() -> SoundServer {
+    #[cfg(target_os = "linux")]
+    let server = crate::pulse::server();
+    #[cfg(not(target_os = "linux"))]
+    let server = SoundServer::Unused;
+    server
 }
 
 /// Opens output `id`, which is silent until its handle sets controls. An id such as `serial:COM3` opens the receiver on
@@ -87,6 +122,9 @@ fn claimed_id(id: &str) -> Cow<'_, str> {
 }
 
 fn open_device(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceError> {
+    if id.starts_with(haptic_pen::ID_PREFIX) {
+        return open_haptic_pen(id, options);
+    }
     #[cfg(target_os = "linux")]
     if id.starts_with(crate::pulse::PREFIX) {
         return open_pulse(id, options);
@@ -118,6 +156,47 @@ fn open_pulse(id: &str, options: OpenOptions) -> Result<(Handle, Running), Devic
     };
     let running = Running::new(facts, opened.shared, opened.output);
     Ok((handle, running))
+}
+
+/// Opens a haptic pen. The engine renders as for the silent output; its signal is measured instead of played.
+fn open_haptic_pen(id: &str, options: OpenOptions) -> Result<(Handle, Running), DeviceError> {
+    if options.drive.inverse.is_some() {
+        let message = format!(
+            "the output `{id}` plays waveforms of its own, so that no actuator can be equalized on it; select no actuator"
+        );
+        return Err(DeviceError::new(DeviceErrorKind::Config, message));
+    }
+    // A pen has no channels: the signal is measured whatever channels were selected.
+    let options = OpenOptions { channels: ChannelMask::FIRST_TWO, friction: None, ..options };
+    let pen = haptic_pen::system::open(id)?;
+    let least_hz = options.model_rate_hz.ceil() as u32;
+    let rate_hz = options.preferred_rate_hz.unwrap_or(haptic_pen::RATE_HZ.max(least_hz));
+    let frames = options.buffer_frames.unwrap_or(haptic_pen::BUFFER_FRAMES);
+    let made = make_engine(options, rate_hz)?;
+    let engine_latency_secs = f64::from(made.engine.latency_secs());
+    let shared = Arc::clone(&made.reporter.shared);
+    let channels = crate::null_output::CHANNELS;
+    let waveforms: Vec<_> = pen.waveforms().collect();
+    let mut translator = Translator::new(rate_hz, waveforms.iter().copied());
+    let (plays_in, plays) = channel();
+    let tap = move |block: &[f32]| {
+        if let Some(play) = translator.process(block, usize::from(channels)) {
+            plays_in.send(play).ok(); // The pen is lost, which is reported.
+        }
+    };
+    let output = NullOutput::start(made.engine, &made.reporter, rate_hz, frames, tap)?;
+    let monitor = Arc::new(HapticMonitor::default());
+    let sender = HapticSender::start(pen, plays, made.reporter, Arc::clone(&monitor))?;
+    let facts = RunningFacts {
+        id: id.into(),
+        rate_hz,
+        channels,
+        buffer_frames: Some(frames),
+        engine_latency_secs,
+        device_latency_secs: f64::from(WINDOW_SECS) + f64::from(frames) / f64::from(rate_hz),
+    };
+    // The thread that renders ends first; the sender then ends by itself.
+    Ok((made.handle, Running::new(facts, shared, (output, sender)).with_haptic(monitor)))
 }
 
 /// Opens the silent output. `tap` is called on the output's thread with every block that the output plays, two channels
@@ -159,9 +238,13 @@ fn check_buffer(options: OpenOptions) -> Result<(), DeviceError> {
 
 #[cfg(test)]
 pub(crate) mod tests {
-    use super::{BUFFER_FRAMES, DeviceErrorKind, NULL_ID, OpenOptions, list_outputs, open};
+    use super::{
+        BUFFER_FRAMES, DeviceErrorKind, NULL_ID, OpenOptions, OutputKind, list_outputs, list_refused_outputs,
+        open,
+    };
     use crate::engine::ChannelMask;
-    use shagreen_synth::drive::DriveConfig;
+    use shagreen_synth::drive::{DriveConfig, Inverse};
+    use shagreen_synth::equalizer::Resonance;
     use std::time::{Duration, Instant};
 
     /// Options for tests that do not depend on them.
@@ -180,9 +263,22 @@ pub(crate) mod tests {
     fn the_null_output_is_always_there_and_ids_are_unique() {
         let outputs = list_outputs();
         assert_eq!((outputs[0].id.as_str(), outputs[0].is_default), (NULL_ID, false));
+        let last = outputs.last().unwrap();
+        assert_eq!(last.id, crate::haptic_pen::system::SIMULATED_ID);
+        assert!(last.name.starts_with("Simulated") && !last.is_default, "{last:?}");
         let mut ids: Vec<_> = outputs.iter().map(|output| &output.id).collect();
         ids.sort();
         assert!(ids.windows(2).all(|w| w[0] != w[1]), "{ids:?}");
+    }
+
+    #[test]
+    fn an_output_that_is_refused_cannot_be_opened_either() {
+        let listed = list_outputs();
+        for (id, error) in list_refused_outputs() {
+            assert!(error.message().contains(&format!("`{id}`")), "{error}");
+            assert!(listed.iter().any(|output| output.id == id && output.kind == OutputKind::Audio), "{id}");
+            assert!(open(&id, OPTIONS).is_err(), "{id}");
+        }
     }
 
     #[test]
@@ -227,6 +323,21 @@ pub(crate) mod tests {
         assert!(running.drain(Duration::from_secs(10)));
         assert!(Instant::now() >= heard_by);
         assert!(begun.elapsed() < Duration::from_secs(5), "drain must not wait longer");
+    }
+
+    #[test]
+    fn a_haptic_pen_is_an_output_that_takes_no_equalizer() {
+        let id = crate::haptic_pen::system::SIMULATED_ID;
+        let (handle, running) = open(id, OPTIONS).unwrap();
+        assert_eq!((running.rate_hz(), running.channels()), (crate::haptic_pen::RATE_HZ, 2));
+        assert_eq!(running.haptic_reading().map(|reading| reading.strongest), Some(None));
+        drop((handle, running));
+        let resonance = Resonance { frequency_hz: 65.0, q: 4.0, gain_mps2_per_volt: 2.0 };
+        let inverse = Some(Inverse { resonance, lowest_hz: 20.0 });
+        let error = open(id, OpenOptions { drive: DriveConfig { inverse, ..OPTIONS.drive }, ..OPTIONS });
+        assert_eq!(error.unwrap_err().kind(), DeviceErrorKind::Config);
+        let (_handle, silent) = open(NULL_ID, OPTIONS).unwrap();
+        assert_eq!(silent.haptic_reading(), None);
     }
 
     #[test]

@@ -35,6 +35,8 @@ pub enum OutputKind {
     Audio,
     /// Microcontroller on a serial port.
     Serial,
+    /// Pen that plays waveforms of its own, which approximate the signal: see [`crate::haptic_pen`].
+    HapticPen,
 }
 
 /// One output of this machine.

@@ -10,11 +10,12 @@ mod playback;
 pub(crate) mod record;
 pub(crate) mod stream;
 
+use std::ffi::CString;
 use std::sync::Arc;
 
 use pulseaudio::protocol::{Command, ServerInfo, SinkInfo, SinkInfoList};
 
-use self::connection::{Connection, unavailable};
+use self::connection::{Connection, Failure, unavailable};
 use self::playback::{Playback, StreamKind};
 use self::stream::PulseStream;
 use crate::edge::Edge;
@@ -22,6 +23,7 @@ use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::link::Shared;
 use crate::output_options::{Made, OpenOptions, OutputInfo, OutputKind, USUAL_BUFFER_FRAMES, make_engine};
+use crate::sound_server::SoundServer;
 
 /// Prefix of the ids of these outputs; the rest is the sink's name.
 pub(crate) const PREFIX: &str = "pulse:";
@@ -43,6 +45,20 @@ pub(crate) fn list() -> Vec<OutputInfo> {
         }
     };
     sinks.into_iter().map(describe).collect()
+}
+
+/// State of the server, with its name and version.
+pub(crate) fn server() -> SoundServer {
+    let asked = Connection::open().and_then(|mut connection| connection.ask(&Command::GetServerInfo));
+    match asked {
+        Ok(ServerInfo { server_name, server_version, .. }) => {
+            let text = |text: Option<CString>| text.map(|text| text.to_string_lossy().into_owned());
+            let words = [text(server_name), text(server_version)];
+            SoundServer::Responds(words.into_iter().flatten().collect::<Vec<_>>().join(" "))
+        }
+        Err(Failure::NoServer) => SoundServer::Missing,
+        Err(failure) => SoundServer::Fails(failure.to_string()),
+    }
 }
 
 /// Result of opening an output.
@@ -86,7 +102,7 @@ pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), D
     let engine_latency_secs = f64::from(engine.latency_secs());
     let shared = Arc::clone(&reporter.shared);
     let edge = Edge::new(engine, Arc::clone(&shared), f64::from(rate_hz));
-    let refused = |error: connection::Failure| {
+    let refused = |error: Failure| {
         let message = format!(
             "the output `{id}` cannot be opened: {error}; choose another one, or check the sound server"
         );

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 #[cfg(doc)]
 use crate::engine::Handle;
 use crate::error::{DeviceError, DeviceErrorKind};
+use crate::haptic_pen::sender::{HapticMonitor, HapticReading};
 use crate::link::Shared;
 use crate::output_claim::{Claim, ClaimGuard};
 use crate::status::Status;
@@ -19,6 +20,7 @@ const DRAIN_POLL: Duration = Duration::from_millis(20);
 pub struct Running {
     facts: RunningFacts,
     shared: Arc<Shared>,
+    haptic: Option<Arc<HapticMonitor>>,
     #[expect(dead_code, reason = "held to be dropped")]
     device: Box<dyn Debug + Send>,
     /// Released last, when the device is closed.
@@ -46,7 +48,12 @@ pub(crate) struct RunningFacts {
 impl Running {
     /// An open output that holds `device` until it is dropped.
     pub(crate) fn new(facts: RunningFacts, shared: Arc<Shared>, device: impl Debug + Send + 'static) -> Self {
-        Self { facts, shared, device: Box::new(device), claim: None }
+        Self { facts, shared, haptic: None, device: Box::new(device), claim: None }
+    }
+
+    /// Attaches the reading of a haptic pen.
+    pub(crate) fn with_haptic(self, monitor: Arc<HapticMonitor>) -> Self {
+        Self { haptic: Some(monitor), ..self }
     }
 
     /// Attaches a claim, which the output holds until it is closed.
@@ -88,6 +95,11 @@ impl Running {
             }
             std::thread::sleep(left.min(left_of_patience).min(DRAIN_POLL));
         }
+    }
+
+    /// What a haptic pen plays instead of the signal; `None` for an output that plays the signal itself.
+    pub fn haptic_reading(&self) -> Option<HapticReading> {
+        Some(self.haptic.as_ref()?.reading())
     }
 
     /// Id of the output.

@@ -1,10 +1,12 @@
 //! Styluses: the mouse, which is always available and uses a set force, and pens, which can be unplugged.
 
 use crate::error::DeviceError;
-use crate::hid::identity::HidPen;
+use crate::hid::identity::{HidPen, denied_on};
 use crate::hid::live::PenBus as _;
 use crate::hid::system::SystemPens;
 use crate::kinematics::{SpeedEstimator, SpeedFilter, held_speed};
+use crate::operating_system::OperatingSystem;
+use crate::pen_backend::{Access, Backend, Provides};
 use crate::touch::Touch;
 use shagreen_synth::contact::Contact;
 
@@ -14,7 +16,9 @@ use shagreen_synth::contact::Contact;
 pub enum StylusKind {
     /// The mouse, with a set force.
     Mouse,
-    /// A pen that is read by HID: see [`crate::hid`].
+    /// A pen or finger, as the window system reports it beside the mouse.
+    Window,
+    /// A pen that is read directly: see [`crate::hid`].
     Pen,
 }
 
@@ -29,14 +33,22 @@ pub struct StylusInfo {
     pub kind: StylusKind,
     /// Whether it measures pressure. For a pen with unknown capabilities, this is assumed to be true.
     pub has_pressure: bool,
-    /// USB vendor and product id; `None` for the mouse.
+    /// USB vendor and product id; `None` for the mouse and the window system.
     pub product: Option<(u16, u16)>,
+    /// How it is read.
+    pub backend: Backend,
+    /// Quantities that it provides, as far as they are known before it is read.
+    pub provides: Provides,
+    /// Whether this program may read it.
+    pub access: Access,
+    /// What to do to be permitted to read it; `None` if nothing is known to be necessary.
+    pub advice: Option<String>,
 }
 
 /// The styluses of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StylusList {
-    /// The mouse, then the pens.
+    /// The mouse, the pointer of the window system, then the pens.
     pub styluses: Vec<StylusInfo>,
     /// Reason why the list may lack pens, if any.
     pub warning: Option<DeviceError>,
@@ -50,25 +62,43 @@ pub fn list_styluses() -> StylusList {
         kind: StylusKind::Mouse,
         has_pressure: false,
         product: None,
+        backend: Backend::Mouse,
+        provides: Provides::MOUSE,
+        access: Access::Granted,
+        advice: None,
+    };
+    let window = StylusInfo {
+        id: "window".into(),
+        name: "Pen or finger, as the window system reports it".into(),
+        kind: StylusKind::Window,
+        has_pressure: Provides::WINDOW.pressure == Some(true),
+        backend: Backend::Window,
+        provides: Provides::WINDOW,
+        ..mouse.clone()
     };
     let (pens, warning) = match SystemPens.list() {
         Ok(pens) => (pens, None),
         Err(error) => (Vec::new(), Some(error)),
     };
     StylusList {
-        styluses: std::iter::once(mouse).chain(pens.into_iter().map(StylusInfo::from)).collect(),
+        styluses: [mouse, window].into_iter().chain(pens.into_iter().map(StylusInfo::from)).collect(),
         warning,
     }
 }
 
 impl From<HidPen> for StylusInfo {
     fn from(pen: HidPen) -> Self {
+        let advice = (!pen.access.may_open()).then(|| denied_on(OperatingSystem::HERE, &pen));
         Self {
             id: pen.id,
             name: pen.name,
             kind: StylusKind::Pen,
-            has_pressure: pen.has_pressure.unwrap_or(true),
+            has_pressure: pen.provides.pressure.unwrap_or(true),
             product: Some((pen.vendor_id, pen.product_id)),
+            backend: pen.backend,
+            provides: pen.provides,
+            access: pen.access,
+            advice,
         }
     }
 }
@@ -126,8 +156,9 @@ mod tests {
     #[test]
     fn the_mouse_is_there() {
         let styluses = list_styluses().styluses;
-        assert_eq!(styluses[0].id, "mouse");
+        assert_eq!((styluses[0].id.as_str(), styluses[1].id.as_str()), ("mouse", "window"));
         assert!(!styluses[0].has_pressure);
+        assert!(styluses.iter().all(|stylus| stylus.access.may_open() == stylus.advice.is_none()));
     }
 
     #[test]

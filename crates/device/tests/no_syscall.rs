@@ -196,6 +196,7 @@ const CALLBACK: &[(&str, &str)] = &[
     ("engine/meter.rs", include_str!("../src/engine/meter.rs")),
     ("engine/place.rs", include_str!("../src/engine/place.rs")),
     ("engine/player.rs", include_str!("../src/engine/player.rs")),
+    ("engine/render.rs", include_str!("../src/engine/render.rs")),
     ("engine/signal_player.rs", include_str!("../src/engine/signal_player.rs")),
     ("engine/slots.rs", include_str!("../src/engine/slots.rs")),
 ];

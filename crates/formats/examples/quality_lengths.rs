@@ -4,6 +4,7 @@
 //! `cargo run --release -p shagreen-formats --example quality_lengths -- assets/quality/paper.json`
 
 use std::error::Error;
+use std::num::ParseFloatError;
 use std::sync::Arc;
 
 use shagreen_core::signals::codec::bitrate::Bitrate;
@@ -14,7 +15,7 @@ use shagreen_core::signals::quality::{
 };
 use shagreen_core::surfaces::contact_model::REFERENCE_CONTACT;
 use shagreen_formats::codec_tables::built_in_codebooks;
-use shagreen_formats::quality_model::write_quality_model;
+use shagreen_formats::quality_model::{QualityModelFile, write_quality_model};
 use shagreen_formats::starter::starter_library;
 use shagreen_formats::thresholds::ThresholdKind;
 
@@ -36,11 +37,20 @@ fn main() -> Result<(), Box<dyn Error>> {
     // A length is the root of a sum over pairs, so it is scaled to the number of pairs in the paper.
     let share = (PAPER_PAIRS as f64 / corpus.len() as f64).sqrt();
     let terms = QualityModel::weighted(&weights, &corpus)?;
-    let terms = terms.terms().iter().map(|term| Term { length: share * term.length, ..*term }).collect();
+    // Five digits are more than such a corpus determines.
+    let rounded = |length: f64| format!("{length:.4e}").parse::<f64>();
+    let scaled = |term: &Term| Ok(Term { length: rounded(share * term.length)?, ..*term });
+    let terms = terms.terms().iter().map(scaled).collect::<Result<_, ParseFloatError>>()?;
     let said = format!(
         "{} pairs, scaled to {PAPER_PAIRS}: the textures of the starter library at 100 mm/s and 1 N, original against decoded, at the five bit rates of the codec",
         corpus.len()
     );
-    std::fs::write(path, write_quality_model(&QualityModel::of_terms(terms)?, &said))?;
+    let file = QualityModelFile {
+        model: QualityModel::of_terms(terms)?,
+        corpus: said,
+        threshold: Some(ThresholdKind::default()),
+        fit: None,
+    };
+    std::fs::write(path, write_quality_model(&file))?;
     Ok(())
 }

@@ -1,4 +1,5 @@
-//! Actuator configuration files (ACF) for players of `.haptic` clips. The output is JSON, which is also valid JSON5.
+//! Actuator configuration files (ACF) for players of `.haptic` clips. The output is JSON, which is also valid JSON5; files of
+//! other programs are read as JSON5.
 //!
 //! Such a player uses no frequency response: it plays sines between two frequencies, and short bursts at the emphases
 //! of a clip. The values written here neither overload the actuator nor use frequencies at which its gain is low:
@@ -16,7 +17,9 @@ use serde::{Deserialize, Serialize};
 use shagreen_core::actuator::{Actuator, ActuatorError, Drive, Response};
 use shagreen_core::units::Hertz;
 
+use crate::json5::json_of_json5;
 use crate::layout;
+use crate::parser_words::plain;
 
 /// Highest frequency of a clip, in Hz: skin is most sensitive near it, and clips are designed for it.
 pub const HIGHEST_HZ: f64 = 300.0;
@@ -31,6 +34,7 @@ const PERIODS: f64 = 2.0;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AcfV1 {
     /// Device, author and source; players ignore it.
+    #[serde(default)]
     pub metadata: MetadataV1,
     /// Playback of continuous vibration.
     pub continuous: ContinuousV1,
@@ -39,7 +43,8 @@ pub struct AcfV1 {
 }
 
 /// Free-text metadata.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct MetadataV1 {
     /// Version of the configuration.
     pub version: String,
@@ -86,6 +91,25 @@ pub struct BurstV1 {
     pub duration_ms: f64,
     /// `sine`, `square`, `saw` or `triangle`.
     pub shape: String,
+}
+
+/// Why bytes are no configuration.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "this is not an actuator configuration that can be read: {reason}; correct it, or export it again with `shagreen actuator acf`"
+)]
+pub struct AcfError {
+    /// The parser's message with its line and column.
+    pub reason: String,
+}
+
+/// Reads a configuration of any program, in JSON5. Its metadata may be incomplete.
+///
+/// # Errors
+/// See [`AcfError`].
+pub fn read_acf(bytes: &[u8]) -> Result<AcfV1, AcfError> {
+    let json = json_of_json5(&String::from_utf8_lossy(bytes));
+    serde_json::from_str(&json).map_err(|error| AcfError { reason: plain(&error.to_string()) })
 }
 
 /// Returns the configuration of an actuator behind a drive; `author` names the program.
@@ -146,7 +170,7 @@ fn tenths(value: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{AcfV1, acf, reaching, write_acf};
+    use super::{AcfV1, acf, reaching, read_acf, write_acf};
     use crate::actuator_toml::built_in_actuators;
     use shagreen_core::actuator::{Drive, Response};
     use shagreen_core::units::{Hertz, Volts};
@@ -157,6 +181,7 @@ mod tests {
         let made = acf(&actuator, Drive::new(Volts(5.0)).unwrap(), "shagreen").unwrap();
         let bytes = write_acf(&made);
         assert_eq!(serde_json::from_slice::<AcfV1>(&bytes).unwrap(), made);
+        assert_eq!(read_acf(&bytes).unwrap(), made);
         let value: serde_json::Value = serde_json::from_slice(&bytes).unwrap();
         // 1.41 V rms is a sine of 1.994 V amplitude; 4.5 V is nine tenths of 5 V.
         assert!((value["continuous"]["gain"].as_f64().unwrap() - 0.3988).abs() < 1e-4);
@@ -166,6 +191,22 @@ mod tests {
         // Two periods at the geometric mean of 65 and 300 Hz.
         assert_eq!(value["emphasis"]["frequency_max"]["output_frequency"], 139.6);
         assert_eq!(value["emphasis"]["frequency_max"]["duration_ms"], 14.3);
+    }
+
+    /// Other programs write comments, names without quotes, and metadata of their own.
+    #[test]
+    fn a_configuration_of_another_program_is_read() {
+        let burst = "{output_frequency: 70, duration_ms: 30.5, shape: 'sine',}";
+        let text = format!(
+            "{{\n  metadata: {{device: 'pad', date: '2026-01-31'}}, // by hand\n  continuous: {{gain: 1., emphasis_ducking: .5, frequency_min: 70, frequency_max: 210,}},\n  emphasis: {{gain: 1, fade_out_percent: 0, frequency_min: {burst}, frequency_max: {burst}}},\n}}\n"
+        );
+        let read = read_acf(text.as_bytes()).unwrap();
+        assert_eq!((&*read.metadata.device, read.continuous.frequency_max), ("pad", 210.0));
+        assert_eq!(read.emphasis.frequency_min.duration_ms, 30.5);
+        let error =
+            read_acf(text.replace("frequency_max: 210", "frequency_max: 'high'").as_bytes()).unwrap_err();
+        assert!(error.to_string().contains("where a number is needed (line 3"), "{error}");
+        assert!(read_acf(b"my notes").is_err());
     }
 
     #[test]
@@ -187,7 +228,8 @@ mod tests {
 
     #[test]
     fn without_a_response_there_is_none() {
-        let unknown = built_in_actuators().unwrap().pop().unwrap();
+        let unknown =
+            built_in_actuators().unwrap().into_iter().find(|actuator| actuator.id == "mm1c").unwrap();
         let message = acf(&unknown, Drive::ASSUMED, "").unwrap_err().to_string();
         assert!(message.contains("mm1c is unknown; calibrate it"), "{message}");
     }

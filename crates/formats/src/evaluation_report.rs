@@ -270,6 +270,7 @@ mod tests {
             rank: 2,
             nrs: None,
             signal_error_db: Some(2.5),
+            signal_from_model_db: Some(0.5),
         };
         let left_out = |texture: usize, errors_db: [f64; 2]| LeftOut {
             texture,

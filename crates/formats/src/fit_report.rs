@@ -11,7 +11,7 @@ use plotters::prelude::{
     IntoLogRange as _, LineSeries, RGBColor, SVGBackend, TextStyle,
 };
 use plotters::style::Color as _;
-use shagreen_core::recording::fit::{FitReport, Segment};
+use shagreen_core::recording::fit::{FitReport, HeldOut, Segment};
 
 /// Size of the page in pixels.
 const SIZE: (u32, u32) = (1200, 820);
@@ -73,7 +73,7 @@ pub fn fit_report_csv(report: &FitReport) -> Vec<u8> {
             s.level_mps2,
             s.comparison.gfc,
             s.comparison.level_error_db,
-            report.held_out
+            report.held_out.is_any()
         );
         text.push_str(&line);
     }
@@ -118,10 +118,18 @@ fn summary(report: &FitReport) -> String {
         report.rate.0,
         report.order,
         100.0 * report.coverage,
-        if report.held_out { "held-out segments" } else { "training segments, none held out" },
+        held_out(report.held_out),
         report.gfc_median(),
         report.level_error_db_median(),
     )
+}
+
+fn held_out(held_out: HeldOut) -> &'static str {
+    match held_out {
+        HeldOut::Segments => "held-out segments",
+        HeldOut::Blocks => "held-out blocks of the same strokes",
+        HeldOut::Nothing => "training segments, none held out",
+    }
 }
 
 fn text(size: f64) -> TextStyle<'static> {
@@ -250,7 +258,7 @@ fn spectrum(panel: &Page<'_>, report: &FitReport, segment: &Segment) -> Drawn {
 #[cfg(test)]
 mod tests {
     use super::{fit_report_csv, fit_report_svg};
-    use shagreen_core::recording::fit::{Comparison, FitReport, Segment};
+    use shagreen_core::recording::fit::{Comparison, FitReport, HeldOut, Segment};
     use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
 
     fn report(n: usize) -> FitReport {
@@ -278,7 +286,7 @@ mod tests {
             coverage: 0.61,
             frequencies: frequencies.clone(),
             tap: None,
-            held_out: true,
+            held_out: HeldOut::Segments,
             notes: Vec::new(),
         }
     }
@@ -289,8 +297,10 @@ mod tests {
         // Each segment is a dot in three plots.
         assert_eq!(svg.matches("<circle").count(), 3 * 9);
         assert!(svg.contains("held-out segments") && svg.contains("Cork &lt;1&gt;"), "{svg}");
-        let of_itself = fit_report_svg("x", &FitReport { held_out: false, ..report(9) });
-        assert!(of_itself.contains("none held out"));
+        for (held_out, words) in [(HeldOut::Nothing, "none held out"), (HeldOut::Blocks, "held-out blocks")] {
+            let page = fit_report_svg("x", &FitReport { held_out, ..report(9) });
+            assert!(page.contains(words), "{held_out:?}");
+        }
     }
 
     /// Reports of few or silent segments, or with NaN values, are drawn too.

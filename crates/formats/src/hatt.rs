@@ -72,7 +72,7 @@ impl HattTexture {
 }
 
 /// Terms of use of the published models.
-const RESTRICTED_TERMS: &str = "Penn Haptic Texture Toolkit: non-profit research only; redistribution requires written approval of its authors";
+pub(crate) const RESTRICTED_TERMS: &str = "Penn Haptic Texture Toolkit: non-profit research only; redistribution requires written approval of its authors";
 
 /// Why bytes are not a HaTT texture.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

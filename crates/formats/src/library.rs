@@ -79,6 +79,8 @@
 //!   `hard_soft`. Every `space` has as many coordinates as the library has axes. `sd` holds the first two axes. All keys of a
 //!   path have the same number of coordinates; it is another one than that of the axes if the path was authored on others.
 //!
+//! Version 1.9 added predictors of the orders 33 to 64: that many frequencies in `lsf`.
+//!
 //! A file states the lowest version that has all features it uses.
 //!
 //! Unknown fields are kept in [`Unknown`] and written back. A file of a higher major version is rejected.
@@ -126,7 +128,7 @@ pub const FORMAT: &str = "shagreen-library";
 /// Supported major version; files of another one are rejected.
 pub const VERSION_MAJOR: u32 = 1;
 /// Highest minor version that is written; a newer one may add fields.
-pub const VERSION_MINOR: u32 = 8;
+pub const VERSION_MINOR: u32 = 9;
 /// Names of the axes of a library that states none.
 pub const USUAL_AXES: [&str; 2] = ["rough-smooth", "hard-soft"];
 
@@ -216,6 +218,14 @@ pub struct PhysicalLabels {
     pub roughness_log10_mps2: f64,
     /// log₁₀ of the contact stiffness in N/m at 1 N.
     pub hardness_log10_n_per_m: f64,
+}
+
+impl PhysicalLabels {
+    /// Contact stiffness at 1 N, in N/m; `None` if it is beyond the range of numbers.
+    pub fn stiffness_n_per_m(&self) -> Option<f64> {
+        let stiffness = 10_f64.powf(self.hardness_log10_n_per_m);
+        (stiffness.is_finite() && stiffness > 0.0).then_some(stiffness)
+    }
 }
 
 impl From<PhysicalLabels> for Labels {
@@ -348,6 +358,13 @@ impl Library {
     /// Terms of use of a texture: its own, or those of the library.
     pub fn license_of<'a>(&'a self, texture: &'a TextureEntry) -> &'a str {
         if texture.license.is_empty() { &self.license } else { &texture.license }
+    }
+
+    /// A copy of a texture with its own terms of use and its own origin, for a place without this library.
+    pub fn with_terms(&self, texture: &TextureEntry) -> TextureEntry {
+        let origin = if texture.origin.is_empty() { &self.origin } else { &texture.origin };
+        let (license, origin) = (self.license_of(texture).to_owned(), origin.clone());
+        TextureEntry { license, origin, ..texture.clone() }
     }
 }
 

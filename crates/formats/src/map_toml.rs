@@ -26,7 +26,8 @@
 //! ```
 //!
 //! A WAV file uses `channels = ["acceleration", "speed", "force", "unused"]`, `full_scale`, `speed_full_scale` and
-//! `force_full_scale` instead of columns.
+//! `force_full_scale` instead of columns. A haptic clip uses `full_scale`, the constants, `frequency_range = [60, 300]` in Hz and
+//! `rate_hz`.
 
 use toml::Value;
 

@@ -157,11 +157,20 @@ pub fn encode_png(rgb: &Rgb) -> Result<Vec<u8>, PictureError> {
 /// # Errors
 /// [`PictureError::Size`] unless there are as many rows as columns.
 pub fn encode_heights(heights_m: &[f64], n_columns: usize) -> Result<Vec<u8>, PictureError> {
+    let levels: Vec<u16> = stretched_levels(heights_m.iter().copied()).collect();
+    encode_levels(&levels, n_columns)
+}
+
+/// Encodes a square of gray levels as 16-bit PNG, row by row from the upper left.
+///
+/// # Errors
+/// [`PictureError::Size`] unless there are as many rows as columns.
+pub fn encode_levels(levels: &[u16], n_columns: usize) -> Result<Vec<u8>, PictureError> {
     let side = u32::try_from(n_columns).unwrap_or(u32::MAX);
-    if n_columns == 0 || heights_m.len() != n_columns * n_columns {
-        return Err(PictureError::Size { width: side, height: side, n_bytes: heights_m.len() });
+    if n_columns == 0 || levels.len() != n_columns * n_columns {
+        return Err(PictureError::Size { width: side, height: side, n_bytes: levels.len() });
     }
-    let pixels: Vec<u8> = stretched_levels(heights_m.iter().copied()).flat_map(u16::to_ne_bytes).collect();
+    let pixels: Vec<u8> = levels.iter().copied().flat_map(u16::to_ne_bytes).collect();
     let mut bytes = Vec::new();
     PngEncoder::new(&mut bytes).write_image(&pixels, side, side, ExtendedColorType::L16)?;
     Ok(bytes)

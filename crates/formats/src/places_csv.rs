@@ -59,6 +59,11 @@ impl Scale {
         }
     }
 
+    /// Returns the low and the high end.
+    pub fn ends(self) -> [f64; 2] {
+        [self.low, self.high]
+    }
+
     /// Returns whether a value lies on the scale.
     pub fn contains(self, value: f64) -> bool {
         (self.low..=self.high).contains(&value)

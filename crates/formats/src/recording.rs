@@ -1,4 +1,4 @@
-//! Recordings of strokes: tables and WAV files, converted to columns in SI units.
+//! Recordings of strokes: tables, WAV files and haptic clips, converted to columns in SI units.
 //!
 //! A file rarely describes itself completely. Each missing fact is a [`Question`]. If the numbers imply an answer, the
 //! reader uses that guess and reports it; otherwise it stops and asks. It never invents a number. The answers form a
@@ -6,6 +6,7 @@
 
 mod column_map;
 pub mod directional;
+mod from_clip;
 mod from_table;
 mod from_wav;
 mod infer_units;
@@ -21,6 +22,8 @@ use std::fmt;
 
 use shagreen_core::recording::{Fault, RawRecording};
 
+use crate::clip::ClipKind;
+use crate::recording::from_clip::recording_of_clip;
 use crate::recording::from_table::recording_of_table;
 use crate::recording::from_wav::recording_of_wav;
 use crate::recording::table::read_table;
@@ -65,6 +68,12 @@ pub enum RecordingFileError {
     #[error("cannot read the sidecar file: {reason}; correct it, or remove it and use a column map")]
     Sidecar {
         /// What is wrong, with the line if known.
+        reason: String,
+    },
+    /// A haptic clip, or a table of an envelope, cannot be made into a signal.
+    #[error("{reason}")]
+    Clip {
+        /// What is wrong, where, and what to do.
         reason: String,
     },
     /// The column map does not fit the file.
@@ -127,7 +136,7 @@ pub(crate) fn n_channels(wav: &[u8]) -> usize {
     wav::n_channels(wav)
 }
 
-/// Reads a recording: a WAV file if its first bytes say so, otherwise a table. `file_name` is for messages, `sidecar`
+/// Reads a recording: a WAV file or a haptic clip if its content says so, otherwise a table. `file_name` is for messages, `sidecar`
 /// holds the bytes of the `.json` file next to a WAV file, and `map` holds known answers.
 ///
 /// # Errors
@@ -143,6 +152,8 @@ pub fn read_recording(
     } else if file_name.to_lowercase().ends_with(".wav") {
         let problem = "does not begin with a WAV header".to_owned();
         Err(RecordingFileError::Wav { problem })
+    } else if let Some(kind) = ClipKind::of(file_name, bytes) {
+        recording_of_clip(kind, bytes, map)
     } else {
         recording_of_table(read_table(bytes, map)?, map)
     }

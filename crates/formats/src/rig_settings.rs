@@ -27,7 +27,7 @@ pub struct RigSettings {
     /// Acceleration at full scale in m/s², if the actuator is unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub full_scale_mps2: Option<f64>,
-    /// Id of the selected pen.
+    /// Id of the selected pen, `auto` for the best one, `window` for none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pen: Option<String>,
     /// Pressure-to-force map, for pens that do not report force.

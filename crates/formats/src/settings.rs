@@ -68,6 +68,9 @@ pub struct Settings {
     /// Networks that predict attributes from photos; `None` if the user has not selected any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub photo_networks: Option<PhotoNetworks>,
+    /// File of the model that predicts d' of two signals; `None` for the built-in one.
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "path_json::serialize_option")]
+    pub quality_model: Option<PathBuf>,
     /// Libraries outside the folders of their projects that the user has permitted, newest first.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub libraries: Vec<PermittedLibrary>,
@@ -204,6 +207,7 @@ pub fn read_settings(bytes: &[u8]) -> (Settings, Option<SettingsError>) {
         prompts: taken(&mut all, "prompts").unwrap_or_default(),
         photo_networks: taken(&mut all, "photo_networks")
             .and_then(|networks: Value| PhotoNetworks::from_json(&networks)),
+        quality_model: taken(&mut all, "quality_model").and_then(|path: Value| path_json::from_json(&path)),
         libraries: taken(&mut all, "libraries")
             .map(|all: Vec<Value>| all.iter().filter_map(permitted_library).collect())
             .unwrap_or_default(),
@@ -235,6 +239,7 @@ pub fn merged(base: &Settings, ours: &Settings, theirs: Settings) -> Settings {
         panels: newer(&base.panels, &ours.panels, theirs.panels),
         prompts: joined(&base.prompts, &ours.prompts, theirs.prompts, MAX_PROMPTS),
         photo_networks: newer(&base.photo_networks, &ours.photo_networks, theirs.photo_networks),
+        quality_model: newer(&base.quality_model, &ours.quality_model, theirs.quality_model),
         libraries: joined(&base.libraries, &ours.libraries, theirs.libraries, MAX_LIBRARIES),
         studies: StudySettings::merged(&base.studies, &ours.studies, theirs.studies),
         unknown: theirs.unknown,

@@ -1,12 +1,13 @@
-//! Signals to compare or encode: the acceleration of a WAV file, without its stroke.
+//! Signals to compare or encode: the acceleration of a WAV file or a haptic clip, without its stroke.
 
 use shagreen_core::dsp::dft321::{Dft321Error, dft321_short_time};
 use shagreen_core::recording::RawClock;
 use shagreen_core::units::{Hertz, MetersPerSecond, Newtons};
 
+use crate::clip::ClipKind;
 use crate::imported::Imported;
 use crate::recording::{
-    AccelerationUnit, Ask, Channel, ColumnMap, RecordingFileError, n_channels, read_recording,
+    AccelerationUnit, Ask, Channel, ColumnMap, Question, RecordingFileError, n_channels, read_recording,
 };
 
 /// A signal with one axis; several axes are combined by DFT321.
@@ -38,7 +39,9 @@ pub enum SignalError {
     #[error(transparent)]
     File(RecordingFileError),
     /// A table, whose rows may be unevenly spaced.
-    #[error("the file is not a WAV file; use a signal from \"shagreen render\" or from an audio editor")]
+    #[error(
+        "the file is neither a WAV file nor a haptic clip; use a signal from \"shagreen render\" or from an audio editor"
+    )]
     NotWav,
     /// The file lacks necessary facts.
     #[error(
@@ -79,7 +82,7 @@ pub enum SignalError {
     },
 }
 
-/// Reads a signal. `sidecar` holds the bytes of the `.json` file next to the WAV file, which states the value of a
+/// Reads a signal. A haptic clip becomes one ([`crate::clip`]). `sidecar` holds the bytes of the `.json` file next to the WAV file, which states the value of a
 /// sample of 1.0. Without a sidecar the hints apply; without either, a sample of 1.0 is read as 1 m/s², with a warning.
 ///
 /// # Errors
@@ -91,14 +94,17 @@ pub fn read_signal(
     hints: SignalHints,
 ) -> Result<Imported<Signal>, SignalError> {
     let is_wav = bytes.starts_with(b"RIFF") || file_name.to_lowercase().ends_with(".wav");
-    if !is_wav {
+    if !is_wav && ClipKind::of(file_name, bytes).is_none() {
         return Err(SignalError::NotWav);
     }
-    let is_said = sidecar.is_some();
-    let channels = hints.channel.map(|channel| only(channel, n_channels(bytes))).transpose()?;
+    let is_said = is_wav && sidecar.is_some();
+    let channel = hints.channel.filter(|_| is_wav);
+    let channels = channel.map(|channel| only(channel, n_channels(bytes))).transpose()?;
+    // A clip that states no full scale says itself which one is assumed.
+    let usual = is_wav.then_some(1.0);
     let map = ColumnMap {
         acceleration_unit: (!is_said).then_some(AccelerationUnit::MetersPerSecondSquared),
-        full_scale: (!is_said).then(|| hints.full_scale_mps2.unwrap_or(1.0)),
+        full_scale: if is_said { None } else { hints.full_scale_mps2.or(usual) },
         channels,
         // The stroke has no effect here, so any value will do.
         constant_speed: Some(MetersPerSecond(0.1)),
@@ -127,8 +133,9 @@ pub fn read_signal(
     let samples_mps2 =
         if let [axis] = axes.as_slice() { axis.to_vec() } else { dft321_short_time(&axes, rate)? };
     let mut warnings = file.warnings;
-    warnings.extend(file.questions.into_iter().map(|question| question.text));
-    if sidecar.is_none() && hints.full_scale_mps2.is_none() {
+    let assumed = |question: Question| if is_wav { question.text } else { question.to_string() };
+    warnings.extend(file.questions.into_iter().map(assumed));
+    if is_wav && sidecar.is_none() && hints.full_scale_mps2.is_none() {
         warnings.push(
             "the unit of the samples is not stated; a sample value of 1.0 is read as 1 m/s² (set another value with --full-scale)"
                 .to_owned(),

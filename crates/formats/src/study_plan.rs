@@ -39,7 +39,6 @@
 
 mod key_problem;
 mod keys;
-mod lines;
 mod read;
 mod tables;
 mod templates;
@@ -50,13 +49,14 @@ use shagreen_core::people::study::plan::{Plan, Problem, Source, missing_sources,
 use shagreen_core::words::counted;
 
 use crate::text_limits::TooLong;
+use crate::toml_lines::{Lines, listed};
 use crate::toml_text;
 
+pub use crate::toml_lines::LocatedProblem as PlanProblem;
 pub use templates::{StudyTemplate, has_placeholder_consent, study_template, study_templates};
 pub use write::write_study_plan;
 
 use self::key_problem::KeyProblem;
-use self::lines::Lines;
 use self::read::{Draft, draft};
 use self::wire::{HeaderV1, Tables};
 
@@ -106,30 +106,6 @@ pub enum StudyPlanError {
     /// The plan cannot be run.
     #[error("the plan has {}: {}", counted(.0.len(), "problem"), listed(.0))]
     Problems(Vec<PlanProblem>),
-}
-
-/// Something that is wrong with a plan, with its place in the file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PlanProblem {
-    /// Line of the key or of its table, from one, if the file has either.
-    pub line: Option<usize>,
-    /// The key, such as `part[2].pairs`: the second `[[part]]`, its key `pairs`. Entries count from 1.
-    pub key: String,
-    /// What is wrong and what to do.
-    pub text: String,
-}
-
-impl std::fmt::Display for PlanProblem {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self.line {
-            Some(line) => write!(f, "line {line}, {}: {}", self.key, self.text),
-            None => write!(f, "{}: {}", self.key, self.text),
-        }
-    }
-}
-
-fn listed(problems: &[PlanProblem]) -> String {
-    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }
 
 /// Reads a plan that can be run. Whether its textures exist is not known here.

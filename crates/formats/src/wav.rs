@@ -39,6 +39,9 @@ pub struct SidecarV1 {
     pub rate_hz: u32,
     /// Duration in s.
     pub seconds: f64,
+    /// Whether the end goes on into the beginning, so that the signal can be repeated; absent if it does not.
+    #[serde(default, rename = "loop", skip_serializing_if = "std::ops::Not::not")]
+    pub loops: bool,
     /// Name of the texture, if it has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
@@ -89,6 +92,7 @@ impl SidecarV1 {
             ],
             rate_hz,
             seconds,
+            loops: false,
             name: None,
             texture: None,
             at: None,
@@ -152,6 +156,32 @@ pub struct TraceV1 {
     /// all other times; absent if none is stated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub speed_normal_mm_per_s: Option<Vec<Option<f64>>>,
+}
+
+impl TraceV1 {
+    /// Times in s at which the tip lands: where the force begins, and at the start if an impact is stated there.
+    pub fn landings_secs(&self) -> Vec<f64> {
+        let touches: Vec<bool> = self.force_n.iter().map(|force_n| *force_n > 0.0).collect();
+        let impacts = self.speed_normal_mm_per_s.as_deref().unwrap_or_default();
+        let lands_at_start = impacts.first().is_some_and(|first| first.is_some_and(|impact| impact > 0.0));
+        let lands = |(i, touches_now): (usize, &bool)| {
+            let was_lifted = match i.checked_sub(1) {
+                Some(before) => !touches[before],
+                None => lands_at_start,
+            };
+            (*touches_now && was_lifted).then(|| self.time_s.get(i).copied())?
+        };
+        touches.iter().enumerate().filter_map(lands).collect()
+    }
+
+    /// Speed in mm/s and force in N if they are the same at all times.
+    pub fn steady(&self) -> Option<(f64, f64)> {
+        let same = |values: &[f64]| {
+            let first = *values.first()?;
+            values.iter().all(|value| *value == first).then_some(first)
+        };
+        Some((same(&self.speed_mm_per_s)?, same(&self.force_n)?))
+    }
 }
 
 /// Why a signal was not written.
@@ -237,13 +267,26 @@ pub fn write_wav_scaled(
     if beside == path {
         return Err(WavWriteError::Name { path: path.to_path_buf() });
     }
+    let [wav, json] = wav_bytes(samples, sidecar, (of, scale))?;
+    atomic::write_all(&[(path, &wav), (&beside, &json)])?;
+    Ok(())
+}
+
+/// Returns the bytes of the two files that [`write_wav_scaled`] writes: the WAV file and its sidecar.
+///
+/// # Errors
+/// [`WavWriteError::TooLong`] and [`WavWriteError::Pack`].
+pub fn wav_bytes(
+    samples: &[f32],
+    sidecar: &SidecarV1,
+    (of, scale): (SampleType, f64),
+) -> Result<[Vec<u8>; 2], WavWriteError> {
     check_length(samples.len() as u64)?;
     let wav = pack(samples, scale, sidecar.rate_hz, of)?;
     let full_scale = scale * sidecar.full_scale;
     // One line per field, and one per row of the trace.
     let json = layout::to_bytes(&SidecarV1 { full_scale, ..sidecar.clone() }, 2);
-    atomic::write_all(&[(path, &wav), (&beside, &json)])?;
-    Ok(())
+    Ok([wav, json])
 }
 
 /// Writes only samples, -1 to 1 of digital full scale, for drive signals without a unit.
@@ -257,145 +300,4 @@ pub fn write_samples(path: &Path, samples: &[f32], rate_hz: u32) -> Result<(), W
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{
-        FORMAT, HEADER_BYTES, MAX_SAMPLES, ParentV1, SidecarV1, TraceV1, UNITS, VERSION, WavWriteError,
-        check_length, sidecar_path, write_wav, write_wav_as, write_wav_scaled,
-    };
-    use crate::wav_encoding::{Level, SampleType, WavEncoding, pack};
-    use std::collections::BTreeMap;
-    use std::fs;
-
-    fn sidecar() -> SidecarV1 {
-        SidecarV1 {
-            format: FORMAT.into(),
-            version: VERSION.into(),
-            units: UNITS.into(),
-            full_scale: 1.0,
-            channels: vec!["acceleration".into()],
-            rate_hz: 1000,
-            seconds: 0.003,
-            name: None,
-            texture: None,
-            at: Some(vec![30.0, 70.0]),
-            at_named: Some(BTreeMap::from([("a-b".into(), 30.0), ("c".into(), 70.0)])),
-            clamped: false,
-            extrapolated: false,
-            blend: "shared".into(),
-            shape: None,
-            parents: vec![ParentV1 { id: "cork".into(), weight: 1.0, licence: "CC0-1.0".into() }],
-            library: "Starter".into(),
-            label_source: Some("physical".into()),
-            seed: 5,
-            stroke: None,
-            trace: TraceV1 {
-                time_s: vec![0.0, 0.003],
-                speed_mm_per_s: vec![100.0; 2],
-                force_n: vec![1.0; 2],
-                x_mm: Some(vec![0.0, 0.3]),
-                y_mm: Some(vec![0.0; 2]),
-                speed_normal_mm_per_s: Some(vec![Some(50.0), None]),
-            },
-            created_by: "shagreen".into(),
-        }
-    }
-
-    #[test]
-    fn samples_and_sidecar_come_back_exactly() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("out.wav");
-        // Values above one are kept, because the unit is m/s², not a fraction of full scale.
-        write_wav(&path, &[0.25, -7.5, 1e-9], &sidecar()).unwrap();
-        let mut reader = hound::WavReader::open(&path).unwrap();
-        assert_eq!((reader.spec().channels, reader.spec().sample_rate), (1, 1000));
-        let samples: Vec<f32> = reader.samples().map(Result::unwrap).collect();
-        assert_eq!(samples, [0.25, -7.5, 1e-9]);
-        let beside: SidecarV1 = serde_json::from_slice(&fs::read(sidecar_path(&path)).unwrap()).unwrap();
-        assert_eq!(beside, sidecar());
-        // A sidecar of an earlier version states no names.
-        let mut older = serde_json::to_value(sidecar()).unwrap();
-        assert_eq!(older["at_named"]["c"], 70.0);
-        older.as_object_mut().unwrap().remove("at_named");
-        let read: SidecarV1 = serde_json::from_value(older).unwrap();
-        assert_eq!(read, SidecarV1 { at_named: None, ..sidecar() });
-    }
-
-    /// What a player plays is below full scale, and the sidecar gives the acceleration back.
-    #[test]
-    fn peaks_fit_every_player_and_the_sidecar_undoes_it() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("out.wav");
-        let given = [0.25, -7.5, 3.0, 0.0];
-        for (samples, bits, step) in [
-            (SampleType::Float32, 32, 1e-7),
-            (SampleType::Pcm24, 24, 1.2e-7),
-            (SampleType::Pcm16, 16, 3.1e-5),
-        ] {
-            write_wav_as(&path, &given, &sidecar(), WavEncoding { samples, level: Level::Peak }).unwrap();
-            let beside: SidecarV1 = serde_json::from_slice(&fs::read(sidecar_path(&path)).unwrap()).unwrap();
-            let mut reader = hound::WavReader::open(&path).unwrap();
-            assert_eq!(reader.spec().bits_per_sample, bits);
-            let full = f64::from(2.0_f32.powi(i32::from(bits) - 1) - 1.0);
-            let read: Vec<f64> = match samples {
-                SampleType::Float32 => reader.samples::<f32>().map(|x| f64::from(x.unwrap())).collect(),
-                _ => reader.samples::<i32>().map(|x| f64::from(x.unwrap()) / full).collect(),
-            };
-            let peak = read.iter().fold(0.0_f64, |peak, x| peak.max(x.abs()));
-            assert!((peak - 10_f64.powf(-0.05)).abs() < 1e-4, "{peak}");
-            for (x, expected) in read.iter().zip(given) {
-                assert!(
-                    (x * beside.full_scale - f64::from(expected)).abs() < step * beside.full_scale,
-                    "{x}"
-                );
-            }
-        }
-        // Silence has no peak; integers cannot hold the level of floats, so it is not kept.
-        write_wav_as(
-            &path,
-            &[0.0; 4],
-            &sidecar(),
-            WavEncoding { samples: SampleType::Pcm16, level: Level::Kept },
-        )
-        .unwrap();
-        let beside: SidecarV1 = serde_json::from_slice(&fs::read(sidecar_path(&path)).unwrap()).unwrap();
-        assert_eq!(beside.full_scale, 1.0);
-    }
-
-    #[test]
-    fn signals_at_one_scale_keep_the_ratio_of_their_levels() {
-        let folder = tempfile::tempdir().unwrap();
-        let [loud, quiet] = [[0.5_f32, -4.0], [0.25, -2.0]];
-        let scale = WavEncoding { samples: SampleType::Pcm16, level: Level::Peak }.full_scale(&loud);
-        let read = |name: &str, samples: &[f32]| {
-            let path = folder.path().join(name);
-            write_wav_scaled(&path, samples, &sidecar(), (SampleType::Pcm16, scale)).unwrap();
-            let mut reader = hound::WavReader::open(&path).unwrap();
-            reader.samples::<i32>().map(|x| f64::from(x.unwrap())).collect::<Vec<f64>>()
-        };
-        let (loud, quiet) = (read("loud.wav", &loud), read("quiet.wav", &quiet));
-        // Each number is rounded to a whole one.
-        assert!(loud.iter().zip(&quiet).all(|(loud, quiet)| (loud - 2.0 * quiet).abs() <= 1.5), "{quiet:?}");
-    }
-
-    #[test]
-    fn nothing_is_left_half_written() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("out.wav");
-        fs::create_dir(sidecar_path(&path)).unwrap();
-        assert!(write_wav(&path, &[0.0], &sidecar()).is_err());
-        assert!(!path.exists());
-        assert!(write_wav(&folder.path().join("x.json"), &[0.0], &sidecar()).is_err());
-        assert!(!folder.path().join("x.json").exists());
-    }
-
-    #[test]
-    fn what_32_bits_cannot_count_is_refused() {
-        let header = pack(&[], 1.0, 1000, SampleType::Float32).unwrap();
-        assert_eq!(header.len(), HEADER_BYTES as usize);
-        assert!(check_length(MAX_SAMPLES).is_ok());
-        let fits = |n_samples: u64| u32::try_from(4 * n_samples + u64::from(HEADER_BYTES)).is_ok();
-        assert!(fits(MAX_SAMPLES) && !fits(MAX_SAMPLES + 1));
-        let error = check_length(MAX_SAMPLES + 1).unwrap_err();
-        assert!(matches!(error, WavWriteError::TooLong { n_samples } if n_samples == MAX_SAMPLES + 1));
-    }
-}
+mod tests;

@@ -56,11 +56,15 @@ pub struct WavEncoding {
 }
 
 impl WavEncoding {
+    /// Whether the level of the samples is changed, so that the scale of one signal is not that of another.
+    pub fn is_scaled(self) -> bool {
+        self.samples != SampleType::Float32 || self.level == Level::Peak
+    }
+
     /// Acceleration in m/s² of a sample of 1.
     pub fn full_scale(self, samples: &[f32]) -> f64 {
         let peak_mps2 = samples.iter().fold(0.0_f32, |peak, x| peak.max(x.abs()));
-        let is_kept = self.samples == SampleType::Float32 && self.level == Level::Kept;
-        if is_kept || peak_mps2 == 0.0 { 1.0 } else { f64::from(peak_mps2) / PEAK }
+        if peak_mps2 == 0.0 || !self.is_scaled() { 1.0 } else { f64::from(peak_mps2) / PEAK }
     }
 }
 

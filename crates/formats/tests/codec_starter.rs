@@ -22,7 +22,7 @@ fn ours_is_nearer_than_the_reference_and_what_is_noticed_falls_with_the_rate() {
     let vectors: Value = serde_json::from_str(include_str!("../../../vectors/i_celp/starter.json")).unwrap();
     let books = Arc::new(built_in_codebooks().unwrap());
     let meter = QualityMeter::new(PAPER_RATE, &ThresholdKind::default().read().unwrap()).unwrap();
-    let model = built_in_quality_model().unwrap();
+    let model = built_in_quality_model().unwrap().model;
     let library = starter_library().unwrap();
     let mut d_primes = [0.0; 5];
     for (_, texture) in library.textures.iter().enumerate().filter(|(index, _)| is_held_out(*index)) {

@@ -14,7 +14,7 @@ use std::f64::consts::TAU;
 use shagreen_core::dsp::ar::comparison_frequencies;
 use shagreen_core::dsp::spectrum::goodness_of_fit;
 use shagreen_core::recording::Recording;
-use shagreen_core::recording::fit::{FitOptions, Fitted, fit};
+use shagreen_core::recording::fit::{FitOptions, Fitted, HeldOut, fit};
 use shagreen_core::recording::segment::segment;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
@@ -95,7 +95,7 @@ fn outcome(index: usize, textures: &[TextureEntry]) -> Outcome {
     let texture = &textures[index];
     let recording = strokes(&texture.model, index as u64 + 1);
     let all = fit(std::slice::from_ref(&recording), &FitOptions::usual()).unwrap();
-    assert!(all.report.held_out);
+    assert_eq!(all.report.held_out, HeldOut::Segments);
     let held_out = Agreement { gfc: all.report.gfc_median(), level_db: all.report.level_error_db_median() };
     // For the comparison with the true texture, every fifth second is held out.
     let (mut seen, mut unseen) = (recording.clone(), recording);

@@ -141,14 +141,13 @@ impl<'a> Validation<'a> {
         let photo = &self.set.photos[judged.photo];
         let class = &self.set.classes[photo.class];
         let of = evidence_of(attribute, &judged.of);
+        // The error contains that of the label, which is independent of the prediction for a class that was left out. To
+        // add the variance of the label would count it twice.
         let off = of.mean - label(attribute, class);
-        // Nobody rated the roughness of the photos: an estimate by class stands for it, and its own uncertainty counts as
-        // error.
-        let of_label = if attribute == 0 { class.rough_smooth_sd } else { 0.0 };
         let unlikeness = judged.of.distance / self.usual_distance;
         LeftOutError {
             evidence: of,
-            squared: off * off + of_label * of_label,
+            squared: off * off,
             weight: self.weights[judged.photo],
             unlikeness,
             doubts: doubts(photo, &judged.of.probabilities, unlikeness),

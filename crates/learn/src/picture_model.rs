@@ -10,6 +10,7 @@
 
 mod error;
 mod learning;
+pub mod rivals;
 
 use candle_core::{Device, Tensor};
 use serde::{Deserialize, Serialize};
@@ -157,23 +158,22 @@ impl PictureModel {
         config: &PictureConfig,
         mut epoch: impl FnMut(usize) -> bool,
     ) -> Result<Self, PictureModelError> {
-        check(pictures, &lesson, config)?;
+        let n_labels = lesson.attributes.len();
+        check(pictures, n_labels, config)?;
         let device = crate::device::best();
         let scale = FeatureScale::of(&pictures.iter().map(|seen| &seen.features[..]).collect::<Vec<_>>());
-        let n_labels = lesson.attributes.len();
         let rows: Vec<Vec<f32>> = pictures.iter().map(|seen| scale.apply(&seen.features)).collect();
         let unlikeness: Vec<f64> = rows.iter().map(|row| unlikeness(row)).collect();
-        let labels: Vec<Vec<f32>> = pictures
-            .iter()
-            .map(|seen| seen.labels.iter().map(|label| (label / 100.0) as f32).collect())
-            .collect();
+        let labels = labels_of(pictures);
         let sizes = [&[rows[0].len()][..], &config.hidden, &[n_labels]].concat();
+        let network = |parameters: &Parameters, x: &Tensor| dense_stack::run(parameters, x, sizes.len() - 1);
         let mut heads = Vec::with_capacity(config.n_heads);
         let mut squares = vec![Vec::new(); n_labels];
         let mut n_epochs = 0;
         for head in 0..config.n_heads {
             let seed = derive_seed(config.seed, &format!("head {head}"));
-            let mut learning = Learning::new(&rows, &labels, &sizes, seed, &device)?;
+            let parameters = dense_stack::fresh(&sizes, derive_seed(seed, "weights"), &device)?;
+            let mut learning = Learning::new(&rows, &labels, (&network, parameters), seed, &device)?;
             let mut is_on = true;
             while is_on && !learning.is_over(config) {
                 learning.run_epoch(config)?;
@@ -328,15 +328,17 @@ const MOST_NUMBERS: usize = 1 << 14;
 const MOST_LAYERS: usize = 16;
 const MOST_HEADS: usize = 64;
 
-fn check(
-    pictures: &[&Seen],
-    lesson: &TrainingMetadata,
-    config: &PictureConfig,
-) -> Result<(), PictureModelError> {
+/// Labels of pictures, relative to 100.
+fn labels_of(pictures: &[&Seen]) -> Vec<Vec<f32>> {
+    let of = |seen: &&Seen| seen.labels.iter().map(|label| (label / 100.0) as f32).collect();
+    pictures.iter().map(of).collect()
+}
+
+fn check(pictures: &[&Seen], n_labels: usize, config: &PictureConfig) -> Result<(), PictureModelError> {
     if pictures.len() < LEAST {
         return Err(PictureModelError::TooFew { n: pictures.len(), least: LEAST });
     }
-    if lesson.attributes.is_empty()
+    if n_labels == 0
         || !(1..=MOST_HEADS).contains(&config.n_heads)
         || config.n_batch == 0
         || config.hidden.contains(&0)
@@ -344,7 +346,7 @@ fn check(
     {
         return Err(PictureModelError::Settings);
     }
-    let expected = [pictures[0].features.len(), lesson.attributes.len()];
+    let expected = [pictures[0].features.len(), n_labels];
     let is_wrong = |seen: &&Seen| {
         [seen.features.len(), seen.labels.len()] != expected
             || seen.features.iter().any(|x| !x.is_finite())

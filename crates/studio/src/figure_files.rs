@@ -81,7 +81,11 @@ fn missing(folder: Option<&Path>) -> Vec<&Path> {
     missing
 }
 
-fn make(folder: Option<&Path>) -> anyhow::Result<()> {
+/// Creates a folder that does not exist yet, with those around it.
+///
+/// # Errors
+/// The folder cannot be created.
+pub(crate) fn make(folder: Option<&Path>) -> anyhow::Result<()> {
     let Some(folder) = folder else { return Ok(()) };
     std::fs::create_dir_all(folder)
         .context("cannot create the folder; choose another")

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use shagreen_formats::bounded_file::{self, FileKind};
 
 use crate::short_text::shortened;
@@ -68,6 +68,23 @@ pub(crate) fn reason_of(error: &io::Error) -> String {
 /// Returns the ending of a file's name in lower case; empty if there is none.
 pub fn ending_of(path: &Path) -> String {
     path.extension().map_or(String::new(), |ending| ending.to_string_lossy().to_lowercase())
+}
+
+/// Checks the ending of a file to write, without its dot in front: another one would promise another kind of file. A name may have
+/// no ending. `what` names the output in the error.
+///
+/// # Errors
+/// The name has another ending.
+pub fn check_ending(what: &str, ending: &str, path: &Path) -> anyhow::Result<()> {
+    let last = ending.rsplit_once('.').map_or(ending, |(_, last)| last);
+    if let Some(other) = path.extension().filter(|other| !other.eq_ignore_ascii_case(last)) {
+        bail!(
+            "{what} is written to a .{ending} file, not to .{}; choose a name ending in .{ending}: {}",
+            other.display(),
+            path.display()
+        );
+    }
+    Ok(())
 }
 
 /// Returns whether a folder, pipe or device is at this path. Reading a pipe or device might never end.

@@ -18,11 +18,12 @@ macro_rules! page {
 }
 
 /// All pages, the table of contents first.
-pub static PAGES: [GuidePage; 48] = [
+pub static PAGES: [GuidePage; 60] = [
     page!("index"),
     page!("first-steps"),
     page!("terms"),
     page!("troubleshooting"),
+    page!("systems"),
     page!("author"),
     page!("window"),
     page!("touch"),
@@ -37,6 +38,7 @@ pub static PAGES: [GuidePage; 48] = [
     page!("projects"),
     page!("find-textures"),
     page!("import-recordings"),
+    page!("import-clips"),
     page!("directional-recordings"),
     page!("make-materials"),
     page!("hatt-models"),
@@ -53,19 +55,29 @@ pub static PAGES: [GuidePage; 48] = [
     page!("train-networks"),
     page!("diffusion-models"),
     page!("outputs-and-actuators"),
+    page!("controllers"),
+    page!("haptic-pens"),
     page!("calibrate"),
     page!("latency"),
     page!("serial"),
+    page!("runtime"),
     page!("signals"),
     page!("codec"),
     page!("quality"),
+    page!("fit-a-difference-model"),
     page!("spatial-spectrograms"),
     page!("reliefs"),
     page!("height-maps"),
+    page!("exports"),
+    page!("export-models"),
+    page!("batch"),
+    page!("share"),
     page!("render-and-play"),
     page!("evaluate"),
+    page!("reproduce"),
     page!("measures"),
     page!("command-line"),
+    page!("python"),
     page!("files-and-formats"),
 ];
 
@@ -112,5 +124,20 @@ mod tests {
             assert!(page.text.split_whitespace().count() < 1000, "{} is too long", page.id);
         }
         assert!(page("none").is_none() && page("projects.md").is_some());
+    }
+
+    #[test]
+    fn every_feature_has_a_known_state_on_every_system() {
+        let rows: Vec<&str> =
+            page("systems").unwrap().text.lines().filter(|line| line.starts_with('|')).collect();
+        assert_eq!(rows[0], "| feature | Linux | Windows | macOS |");
+        assert!(rows.len() > 12);
+        for row in &rows[2..] {
+            let cells: Vec<&str> = row.trim_matches('|').split('|').map(str::trim).collect();
+            assert_eq!(cells.len(), 4, "{row}");
+            for cell in &cells[1..] {
+                assert!(["tested", "compiles", "untried", "–"].contains(cell), "{row}");
+            }
+        }
     }
 }

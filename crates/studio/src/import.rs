@@ -25,11 +25,14 @@ pub trait ImportFormat: Sync {
     fn read(&self, file_name: &str, bytes: &[u8]) -> Result<Imported<Vec<TextureEntry>>, String>;
 }
 
-/// All formats of texture models.
-pub static FORMATS: [&dyn ImportFormat; 2] = [&library::Library, &hatt::Hatt];
+/// The XML of the Penn Haptic Texture Toolkit.
+pub const HATT: &dyn ImportFormat = &hatt::Hatt;
 
-/// Endings of recordings: WAV files and tables.
-pub const RECORDING_ENDINGS: [&str; 4] = ["wav", "csv", "tsv", "txt"];
+/// All formats of texture models.
+pub static FORMATS: [&dyn ImportFormat; 2] = [&library::Library, HATT];
+
+/// Endings of recordings: WAV files, tables and haptic clips, which become signals.
+pub const RECORDING_ENDINGS: [&str; 6] = ["wav", "csv", "tsv", "txt", "haptic", "ahap"];
 
 /// Ending of a file that maps the columns of recordings.
 pub const MAP_ENDING: &str = "toml";
@@ -47,6 +50,7 @@ pub fn is_importable(ending: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::{FORMATS, format_of_ending, is_importable};
+    use shagreen_formats::clip::CLIP_ENDINGS;
     use shagreen_formats::hatt::write_hatt;
     use shagreen_formats::starter::{starter_bytes, starter_library};
 
@@ -68,5 +72,6 @@ mod tests {
         let cork = &read("xml", &write_hatt(&library.textures[0], "test").unwrap())[0];
         assert!(!cork.id.is_empty() && !cork.name.is_empty());
         assert!(is_importable("wav") && is_importable("toml") && !is_importable("png"));
+        assert!(CLIP_ENDINGS.into_iter().all(is_importable));
     }
 }

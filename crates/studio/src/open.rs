@@ -7,6 +7,7 @@ use std::path::Path;
 use anyhow::{Context as _, anyhow};
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::built_in::BuiltIn;
+use shagreen_formats::clip::{CLIP_ENDINGS, ClipKind};
 use shagreen_formats::foreign_file::Found;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::{LibraryError, read_library};
@@ -14,22 +15,32 @@ use shagreen_formats::project::{
     LibraryFile, Project, ProjectError, ProjectLibrary, read_project, read_project_on, sha256_hex,
 };
 
-use crate::file::{ending_of, folder_of, in_file, is_special, reason_of};
+use crate::file::{ending_of, file_name, folder_of, in_file, is_special, reason_of};
 use crate::permitted_libraries::{OutsideLibrary, Permitted, without_dots};
 
 /// Bytes at the beginning of a file that tell its kind.
 const HEAD_BYTES: u64 = 256;
 /// Ending of the name of the plan of a study.
 pub const PLAN_ENDING: &str = "toml";
-/// Endings of the names of files that the window takes although they are neither projects nor libraries: recordings,
-/// models, strokes and photos.
-pub const OTHER_ENDINGS: [&str; 13] =
-    ["wav", "csv", "tsv", "txt", "xml", "svc", "jpg", "jpeg", "png", "webp", "bmp", "tif", "tiff"];
+/// Endings of the names of files that the window takes although they are neither projects nor libraries: recordings, haptic
+/// clips, models, strokes and photos.
+pub const OTHER_ENDINGS: [&str; 15] = [
+    "wav", "csv", "tsv", "txt", "haptic", "ahap", "xml", "svc", "jpg", "jpeg", "png", "webp", "bmp", "tif",
+    "tiff",
+];
 
-/// Returns whether a file is of such a kind: its name has one of [`OTHER_ENDINGS`], and it does not begin like a project
-/// or a library, which may have any name.
+/// Returns whether a file is of such a kind: it is a haptic clip, or its name has one of [`OTHER_ENDINGS`] and it does not begin
+/// like a project or a library, which may have any name.
 pub fn is_other_kind(path: &Path) -> bool {
-    OTHER_ENDINGS.contains(&ending_of(path).as_str()) && !begins_like_json(path)
+    let ending = ending_of(path);
+    is_clip(path, &ending) || (OTHER_ENDINGS.contains(&ending.as_str()) && !begins_like_json(path))
+}
+
+/// Returns whether a file is a haptic clip. Only the content of a JSON file tells that.
+fn is_clip(path: &Path, ending: &str) -> bool {
+    let is_clip = |bytes: &[u8]| ClipKind::of(&file_name(path), bytes).is_some();
+    CLIP_ENDINGS.contains(&ending)
+        || (ending == "json" && bounded_file::read(path, FileKind::Small).is_ok_and(|bytes| is_clip(&bytes)))
 }
 
 /// Returns whether a file is the plan of a study, by the ending of its name.

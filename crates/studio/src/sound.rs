@@ -3,7 +3,7 @@
 use anyhow::{Context as _, bail};
 use serde_json::{Value, json};
 use shagreen_core::space::SpacePoint;
-use shagreen_core::space::authoring::{Authored, Blending, Voice};
+use shagreen_core::space::authoring::{Authored, Authoring, Blending, Voice};
 use shagreen_core::space::texture_path::TexturePath;
 use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::Mode;
@@ -89,7 +89,27 @@ impl Sound {
         (blending, shape): (&Blending, &Shape),
         reporter: &dyn Reporter,
     ) -> anyhow::Result<Self> {
-        let authored = authoring(library, blending.mode, reporter)?
+        Self::of_point_in(
+            &authoring(library, blending.mode, reporter)?,
+            library,
+            point,
+            (blending, shape),
+            reporter,
+        )
+    }
+
+    /// As [`Sound::of_point`], with the authoring space of the library for the mode ([`authoring`]), which several points share.
+    ///
+    /// # Errors
+    /// As [`Sound::of_point`].
+    pub fn of_point_in(
+        authoring: &Authoring,
+        library: &Library,
+        point: SpacePoint,
+        (blending, shape): (&Blending, &Shape),
+        reporter: &dyn Reporter,
+    ) -> anyhow::Result<Self> {
+        let authored = authoring
             .author(point, blending)
             .context("no texture of the library has a position; use --texture, or assign positions first")?;
         warn_outside_hull(point, &authored, reporter);
@@ -130,20 +150,23 @@ impl Sound {
         shape: &Shape,
         reporter: &dyn Reporter,
     ) -> anyhow::Result<Self> {
-        // The library of a project may have other axes than when the texture was authored.
-        let n_axes = library.axis_names().len();
-        let blend = authored.blend.in_space(n_axes);
-        if blend.mode != authored.blend.mode {
-            reporter.note(&format!(
-                "\"{}\" has mode {}, which needs a space with one or two axes; it is interpolated in mode {}",
-                authored.name,
-                authored.blend.mode.id(),
-                blend.mode.id()
-            ));
-        }
-        note_lost_pins(library, &blend, reporter);
-        let blending = blend.blending(|id| library.index_of(id));
-        Self::of_point(library, authored.at.on(n_axes), (&blending, shape), reporter)
+        let (point, blending) = placed(library, authored, reporter);
+        Self::of_point(library, point, (&blending, shape), reporter)
+    }
+
+    /// As [`Sound::of_authored`], with the authoring space of the library for the mode of the texture ([`authoring`]).
+    ///
+    /// # Errors
+    /// As [`Sound::of_point`].
+    pub fn of_authored_in(
+        authoring: &Authoring,
+        library: &Library,
+        authored: &AuthoredTexture,
+        shape: &Shape,
+        reporter: &dyn Reporter,
+    ) -> anyhow::Result<Self> {
+        let (point, blending) = placed(library, authored, reporter);
+        Self::of_point_in(authoring, library, point, (&blending, shape), reporter)
     }
 
     /// Returns the models of the voices in their shape, and their weights.
@@ -278,6 +301,23 @@ fn warn_outside_hull(point: SpacePoint, authored: &Authored, reporter: &dyn Repo
              extrapolated"
         )),
     }
+}
+
+/// Returns the position and the interpolation options of an authored texture in the space of a library, and notes what differs.
+fn placed(library: &Library, authored: &AuthoredTexture, reporter: &dyn Reporter) -> (SpacePoint, Blending) {
+    // The library of a project may have other axes than when the texture was authored.
+    let n_axes = library.axis_names().len();
+    let blend = authored.blend.in_space(n_axes);
+    if blend.mode != authored.blend.mode {
+        reporter.note(&format!(
+            "\"{}\" has mode {}, which needs a space with one or two axes; it is interpolated in mode {}",
+            authored.name,
+            authored.blend.mode.id(),
+            blend.mode.id()
+        ));
+    }
+    note_lost_pins(library, &blend, reporter);
+    (authored.at.on(n_axes), blend.blending(|id| library.index_of(id)))
 }
 
 /// Notes pins of an authored texture that have no effect, because a texture is not in the list or has no position in the space.

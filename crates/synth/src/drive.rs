@@ -35,7 +35,7 @@ pub struct DriveConfig {
 /// Longest look-ahead, in seconds.
 pub const MAX_LOOK_AHEAD_SECS: f32 = 0.002;
 /// Knee of the limiter as a fraction of its ceiling; the limiter is linear below it.
-const KNEE_SHARE: f32 = 0.8;
+pub const KNEE_SHARE: f32 = 0.8;
 /// Knee of the limiter that follows the look-ahead limiter, which leaves it only rounding errors.
 const LAST_KNEE_SHARE: f32 = 0.999;
 /// Samples between two updates of the thermal gain.

@@ -8,7 +8,24 @@ use core::f64::consts::FRAC_PI_2;
 
 use crate::limits::MAX_ORDER;
 
+/// Highest order whose factors are multiplied in ascending order of their frequencies.
+///
+/// The coefficients of a product of the low frequencies alone grow by about a factor of 3 with each factor, to 3e8 at
+/// order 64, and the high frequencies cancel them again. At higher orders so many digits cancel that a stable filter
+/// becomes unstable. Their factors are therefore multiplied in the order of [`scattered`], in which the coefficients of
+/// real filters stay below 1e4.
+pub const ASCENDING_ORDER: usize = 32;
+
 const MAX_FACTORS: usize = MAX_ORDER.div_ceil(2);
+
+/// Indices of `n` factors in the order of their reversed bits: 0, 16, 8, 24, and so on for 32. Low and high frequencies
+/// alternate, so that the coefficients of partial products stay small.
+pub fn scattered(n: usize) -> impl Iterator<Item = usize> {
+    // At least two, so that the shift is shorter than a word.
+    let n_slots = n.max(2).next_power_of_two();
+    let shift = n_slots.leading_zeros() + 1;
+    (0..n_slots).map(move |slot| slot.reverse_bits() >> shift).filter(move |index| *index < n)
+}
 
 /// `-2 cos(w)` for `w` in (0, π), within 2e-11: twice the Taylor series of the sine at `w - π/2`.
 #[inline]
@@ -33,37 +50,59 @@ fn minus_two_cos(w: f64) -> f64 {
 #[inline]
 pub fn ar_from_lsf(lsf: &[f32], ar: &mut [f32]) {
     let order = lsf.len().min(ar.len()).min(MAX_ORDER);
+    let (lsf, ar) = (&lsf[..order], &mut ar[..order]);
+    // Usual orders need arrays of half the length.
+    if order <= ASCENDING_ORDER {
+        expand::<16, 17>(lsf, ar, |k| k);
+    } else {
+        let mut places = [0; MAX_FACTORS];
+        for (place, index) in places.iter_mut().zip(scattered(order / 2)) {
+            *place = index;
+        }
+        expand::<MAX_FACTORS, { MAX_FACTORS + 1 }>(lsf, ar, |k| places[k]);
+    }
+}
+
+/// Writes the coefficients of as many frequencies as `ar` has elements: at most twice `FACTORS`, one less than `HALF`.
+/// Factor `place(k)` of each polynomial is multiplied as number `k`.
+#[inline]
+fn expand<const FACTORS: usize, const HALF: usize>(
+    lsf: &[f32],
+    ar: &mut [f32],
+    place: impl Fn(usize) -> usize,
+) {
+    let order = lsf.len();
     if order == 0 {
         return;
     }
     let (q_factors, p_factors) = (order.div_ceil(2), order / 2);
-    let mut factor = [[0.0_f64; 2]; MAX_FACTORS];
-    for (i, pair) in lsf[..order].chunks(2).enumerate() {
+    let mut factor = [[0.0_f64; 2]; FACTORS];
+    for (i, pair) in lsf.chunks(2).enumerate() {
         factor[i] =
             [minus_two_cos(f64::from(pair[0])), pair.get(1).map_or(0.0, |&w| minus_two_cos(f64::from(w)))];
     }
     // half[i] is coefficient i of [Q, P], 0..=degree/2. Both are expanded over p_factors; any remaining factor is Q's.
-    let mut half = [[0.0_f64; 2]; MAX_FACTORS + 1];
+    let mut half = [[0.0_f64; 2]; HALF];
     half[0] = [1.0, 1.0];
-    for (k, c) in factor[..p_factors].iter().enumerate() {
-        multiply::<2>(&mut half, k, *c);
+    for k in 0..p_factors {
+        multiply::<2, HALF>(&mut half, k, factor[place(k)]);
     }
     if q_factors > p_factors {
-        multiply::<1>(&mut half, p_factors, factor[p_factors]);
+        multiply::<1, HALF>(&mut half, p_factors, factor[p_factors]);
     }
     let q_at = |i: usize| if i <= q_factors { half[i][0] } else { half[2 * q_factors - i][0] };
     let p_at = |i: usize| if i <= p_factors { half[i][1] } else { half[2 * p_factors - i][1] };
     if order.is_multiple_of(2) {
         // Q also has the root z = -1, and P the root z = 1.
         let (mut q_last, mut p_last) = (1.0, 1.0);
-        for (i, a) in (1..).zip(ar[..order].iter_mut()) {
+        for (i, a) in (1..).zip(ar.iter_mut()) {
             let (q, p) = (q_at(i), p_at(i));
             *a = (0.5 * (q + q_last + p - p_last)) as f32;
             (q_last, p_last) = (q, p);
         }
     } else {
         // P has the roots z = 1 and z = -1; Q has neither.
-        for (i, a) in (1..).zip(ar[..order].iter_mut()) {
+        for (i, a) in (1..).zip(ar.iter_mut()) {
             let p = if i <= 2 * p_factors { p_at(i) } else { 0.0 };
             let p_before = if i >= 2 { p_at(i - 2) } else { 0.0 };
             *a = (0.5 * (q_at(i) + p - p_before)) as f32;
@@ -73,7 +112,7 @@ pub fn ar_from_lsf(lsf: &[f32], ar: &mut [f32]) {
 
 /// Multiplies the first `N` of two palindromes of degree `2 k` by `1 + c z + z²` each. Only their first halves are stored.
 #[inline]
-fn multiply<const N: usize>(half: &mut [[f64; 2]; MAX_FACTORS + 1], k: usize, c: [f64; 2]) {
+fn multiply<const N: usize, const HALF: usize>(half: &mut [[f64; 2]; HALF], k: usize, c: [f64; 2]) {
     for lane in 0..N {
         // The coefficient after the middle equals the coefficient before it.
         let before = if k >= 1 { half[k - 1][lane] } else { 0.0 };
@@ -96,12 +135,14 @@ fn multiply<const N: usize>(half: &mut [[f64; 2]; MAX_FACTORS + 1], k: usize, c:
 #[cfg(test)]
 pub(crate) mod tests {
     extern crate std;
-    use super::{ar_from_lsf, minus_two_cos};
+    use super::{MAX_FACTORS, ar_from_lsf, expand, minus_two_cos, scattered};
+    use crate::limits::MAX_ORDER;
     use proptest::prelude::{prop, prop_assert, proptest};
     use std::vec;
     use std::vec::Vec;
 
-    /// Slow reference: multiplies all factors at full length.
+    /// Slow reference: multiplies all factors at full length, the lowest and the highest frequencies by turns, so that
+    /// few digits cancel.
     fn oracle(lsf: &[f64]) -> Vec<f64> {
         let convolve = |a: &[f64], b: &[f64]| {
             let mut out = vec![0.0; a.len() + b.len() - 1];
@@ -113,8 +154,11 @@ pub(crate) mod tests {
             out
         };
         let (mut q, mut p) = (vec![1.0], vec![1.0]);
-        for (i, w) in lsf.iter().enumerate() {
-            let factor = [1.0, -2.0 * w.cos(), 1.0];
+        let n = lsf.len();
+        let by_turns =
+            (0..n).map(|i| if i % 4 < 2 { i / 4 * 2 + i % 2 } else { n - 1 - (i / 4 * 2 + i % 2) });
+        for i in by_turns {
+            let factor = [1.0, -2.0 * lsf[i].cos(), 1.0];
             if i % 2 == 0 { q = convolve(&q, &factor) } else { p = convolve(&p, &factor) }
         }
         if lsf.len().is_multiple_of(2) {
@@ -153,9 +197,37 @@ pub(crate) mod tests {
         assert!((f64::from(ar[0]) + 1.0_f64.cos()).abs() < 1e-7);
     }
 
+    #[test]
+    fn every_factor_is_multiplied_once() {
+        for n in 0..100 {
+            let mut places: Vec<usize> = scattered(n).collect();
+            places.sort_unstable();
+            assert!(places.iter().copied().eq(0..n), "{places:?} of {n}");
+        }
+    }
+
+    /// Evenly spaced frequencies are a predictor of zeros.
+    #[test]
+    fn white_noise_in_closed_form_at_every_order() {
+        let even = |order: usize| -> Vec<f32> {
+            (1..=order).map(|i| (core::f64::consts::PI * i as f64 / (order as f64 + 1.0)) as f32).collect()
+        };
+        let largest = |ar: &[f32]| ar.iter().fold(0.0_f32, |most, a| most.max(a.abs()));
+        for order in 1..=MAX_ORDER {
+            let mut ar = vec![f32::NAN; order];
+            ar_from_lsf(&even(order), &mut ar);
+            // The frequencies are rounded to f32, about 1e-7 each.
+            assert!(largest(&ar) < 5e-6, "order {order}: {ar:?}");
+        }
+        // Negative control: in ascending order, high orders lose nearly all digits.
+        let mut ar = vec![f32::NAN; MAX_ORDER];
+        expand::<MAX_FACTORS, { MAX_FACTORS + 1 }>(&even(MAX_ORDER), &mut ar, |k| k);
+        assert!(largest(&ar) > 1e-3, "{ar:?}");
+    }
+
     proptest! {
         #[test]
-        fn agrees_with_the_full_expansion(gaps in prop::collection::vec(0.02_f64..1.0, 2..33)) {
+        fn agrees_with_the_full_expansion(gaps in prop::collection::vec(0.02_f64..1.0, 2..MAX_ORDER + 2)) {
             let lsf = lsf_of_gaps(&gaps);
             let mut ar = vec![f32::NAN; lsf.len()];
             ar_from_lsf(&lsf, &mut ar);

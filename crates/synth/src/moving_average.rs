@@ -1,7 +1,6 @@
 //! Moving-average (MA) filter of the excitation, for ARMA texture models.
 
-use crate::limits::MAX_ORDER;
-use crate::limits::MAX_TICK;
+use crate::limits::{MAX_MA_ORDER, MAX_TICK};
 use crate::lsf::ar_from_lsf;
 
 /// Products are summed in this many lanes so that the compiler can vectorize the sum.
@@ -11,26 +10,26 @@ const LANES: usize = 8;
 #[derive(Clone, Debug)]
 pub(crate) struct MovingAverage {
     /// Coefficients `b_1 …` in reverse order, to match the order of `memory`.
-    coefficients: [f32; MAX_ORDER],
+    coefficients: [f32; MAX_MA_ORDER],
     order: usize,
     /// Last inputs, oldest first, followed by room for one tick.
-    memory: [f32; MAX_ORDER + MAX_TICK],
+    memory: [f32; MAX_MA_ORDER + MAX_TICK],
 }
 
 impl MovingAverage {
     /// A filter of order 0, which passes its input unchanged.
     pub(crate) fn new() -> Self {
-        Self { coefficients: [0.0; MAX_ORDER], order: 0, memory: [0.0; MAX_ORDER + MAX_TICK] }
+        Self { coefficients: [0.0; MAX_MA_ORDER], order: 0, memory: [0.0; MAX_MA_ORDER + MAX_TICK] }
     }
 
     /// Sets the coefficients from line spectral frequencies in radians; an empty slice sets order 0.
     #[inline]
     pub(crate) fn aim(&mut self, lsf: &[f32]) {
-        let order = lsf.len().min(MAX_ORDER);
+        let order = lsf.len().min(MAX_MA_ORDER);
         if order == 0 && self.order == 0 {
             return;
         }
-        let mut b = [0.0; MAX_ORDER];
+        let mut b = [0.0; MAX_MA_ORDER];
         ar_from_lsf(&lsf[..order], &mut b[..order]);
         b.reverse();
         self.coefficients = b;
@@ -48,14 +47,14 @@ impl MovingAverage {
         self.memory.fill(0.0);
     }
 
-    /// Filters at most [`MAX_TICK`] samples in place. Cost per sample: [`MAX_ORDER`] multiply-adds.
+    /// Filters at most [`MAX_TICK`] samples in place. Cost per sample: [`MAX_MA_ORDER`] multiply-adds.
     pub(crate) fn filter(&mut self, samples: &mut [f32]) {
         let n = samples.len().min(MAX_TICK);
         let m = &mut self.memory;
-        m[MAX_ORDER..MAX_ORDER + n].copy_from_slice(&samples[..n]);
+        m[MAX_MA_ORDER..MAX_MA_ORDER + n].copy_from_slice(&samples[..n]);
         for (i, out) in samples[..n].iter_mut().enumerate() {
             let mut sum = [0.0_f32; LANES];
-            let past = m[i..i + MAX_ORDER].chunks_exact(LANES);
+            let past = m[i..i + MAX_MA_ORDER].chunks_exact(LANES);
             for (b, x) in self.coefficients.chunks_exact(LANES).zip(past) {
                 for lane in 0..LANES {
                     sum[lane] += b[lane] * x[lane];
@@ -63,7 +62,7 @@ impl MovingAverage {
             }
             *out += sum.iter().sum::<f32>();
         }
-        m.copy_within(n..n + MAX_ORDER, 0);
+        m.copy_within(n..n + MAX_MA_ORDER, 0);
     }
 }
 
@@ -71,10 +70,9 @@ impl MovingAverage {
 mod tests {
     extern crate std;
     use super::MovingAverage;
+    use crate::limits::{MAX_MA_ORDER, MAX_TICK};
     use crate::lsf::ar_from_lsf;
     use crate::noise::{Gaussian, Noise};
-    use crate::texture::MAX_ORDER;
-    use crate::voice::MAX_TICK;
     use std::vec;
     use std::vec::Vec;
 
@@ -82,7 +80,7 @@ mod tests {
     fn every_order_agrees_with_the_plain_sum_whatever_the_ticks() {
         let (table, mut noise) = (Gaussian::new(), Noise::new(9));
         let x: Vec<f32> = (0..300).map(|_| table.draw(&mut noise)).collect();
-        for order in 0..=MAX_ORDER {
+        for order in 0..=MAX_MA_ORDER {
             let lsf: Vec<f32> =
                 (1..=order).map(|i| core::f32::consts::PI * i as f32 / (order as f32 + 1.3)).collect();
             let mut b = vec![0.0; order];

@@ -37,10 +37,12 @@ pub(crate) fn ln_power_gain(ar: &[f32]) -> Option<f32> {
 mod tests {
     extern crate std;
     use super::ln_power_gain;
+    use crate::limits::MAX_ORDER;
     use crate::lsf::ar_from_lsf;
     use crate::lsf::tests::lsf_of_gaps;
     use proptest::prelude::{prop, prop_assert, proptest};
     use std::vec;
+    use std::vec::Vec;
 
     #[test]
     fn orders_one_and_two_in_closed_form() {
@@ -60,6 +62,17 @@ mod tests {
         for bad in [&[1.0][..], &[-2.0], &[0.0, 1.5], &[f32::NAN], &[f32::INFINITY, 0.5]] {
             assert_eq!(ln_power_gain(bad), None, "{bad:?}");
         }
+    }
+
+    #[test]
+    fn the_highest_order_agrees_with_the_impulse_response() {
+        // Gaps that differ by a factor of five, as far as the pattern of three allows.
+        let gaps: Vec<f64> = (0..=MAX_ORDER).map(|i| [0.2, 1.0, 0.6][i % 3]).collect();
+        let lsf = lsf_of_gaps(&gaps);
+        let mut ar = vec![0.0; lsf.len()];
+        ar_from_lsf(&lsf, &mut ar);
+        let gain = f64::from(ln_power_gain(&ar).unwrap());
+        assert!((gain - oracle(&ar, 20_000)).abs() < 1e-4, "{gain} for {}", oracle(&ar, 20_000));
     }
 
     /// Slow reference: sum of the squared impulse response.

@@ -16,6 +16,8 @@ use crate::voice::MAX_TICK;
 pub const TICK_SECS: f32 = 0.005;
 /// Duration of a fade of weights, textures or blend, in seconds.
 pub const FADE_SECS: f32 = 0.02;
+/// Lowest and highest sample rate of a model, in Hz.
+pub const MODEL_RATES_HZ: (f32, f32) = (200.0, 4000.0);
 /// Most textures in a mix.
 pub const MAX_PARENTS: usize = 3;
 /// Most voices at once: those of the mix and those that fade out.
@@ -103,10 +105,11 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// A silent renderer at `rate_hz` with noise determined by `seed`. The rate is clamped to 200..4000 Hz; a
+    /// A silent renderer at `rate_hz` with noise determined by `seed`. The rate is clamped to [`MODEL_RATES_HZ`]; a
     /// non-finite rate becomes 1000 Hz.
     pub fn new(rate_hz: f32, seed: u64) -> Self {
-        let rate_hz = if rate_hz.is_finite() { rate_hz.clamp(200.0, 4000.0) } else { 1000.0 };
+        let (lowest_hz, highest_hz) = MODEL_RATES_HZ;
+        let rate_hz = if rate_hz.is_finite() { rate_hz.clamp(lowest_hz, highest_hz) } else { 1000.0 };
         let tick_len = ((rate_hz * TICK_SECS) as usize).clamp(1, MAX_TICK);
         Self {
             seed,

@@ -5,6 +5,10 @@ use crate::renderer::{Mix, Renderer, TextureId, Textures};
 use crate::resampler::Resampler;
 use crate::voice::MAX_TICK;
 
+/// Time after the begin of a tick at which the tick has certainly been requested, in seconds. The filters after it delay
+/// its samples by more.
+pub const REQUEST_SECS: f64 = 5e-5;
+
 /// A renderer followed by the sample-rate converter, for use in an audio callback.
 #[derive(Clone, Debug)]
 pub struct Stream {
@@ -47,6 +51,11 @@ impl Stream {
     pub fn is_using(&self, id: TextureId) -> bool {
         self.renderer.is_sounding(id)
             || self.wanted.is_some_and(|mix| mix.parents.iter().any(|p| p.id == id && p.weight > 0.0))
+    }
+
+    /// Duration of a tick in seconds.
+    pub fn tick_secs(&self) -> f64 {
+        self.renderer.tick_len() as f64 / self.model_rate_hz
     }
 
     /// Delay in seconds from a change of contact to the middle of its ramp in the output: one tick plus the filters.

@@ -7,7 +7,7 @@ mod spot;
 use crate::contact::Contact;
 use crate::direction::Direction;
 use crate::height_map::HeightMap;
-pub use crate::limits::MAX_ORDER;
+pub use crate::limits::{MAX_MA_ORDER, MAX_ORDER};
 use crate::lsf::ar_from_lsf;
 use crate::power_gain::ln_power_gain;
 use crate::relief::{Passage, Relief};
@@ -16,6 +16,9 @@ use crate::texture::spot::Spot;
 
 /// "No neighbor" in [`Triangle::neighbors`].
 pub const NO_NEIGHBOR: u16 = u16::MAX;
+
+/// Largest number of nodes of a plane: their indices have 16 bits.
+pub const MAX_NODES: usize = 1 << 16;
 
 /// Model at one measured speed and force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,7 +37,7 @@ pub struct Excitation {
     /// Gain after the noise, dimensionless.
     pub gain: f32,
     /// Line spectral frequencies of the moving average in radians (0, π), ascending; the first `ma_order` are used.
-    pub ma_lsf: [f32; MAX_ORDER],
+    pub ma_lsf: [f32; MAX_MA_ORDER],
 }
 
 /// Three nodes with the affine map from a contact to its barycentric weights.
@@ -58,11 +61,13 @@ pub struct Triangle {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum TextureError {
-    /// The order is zero or above [`MAX_ORDER`], or there is a moving average without excitations.
+    /// The order is zero or above [`MAX_ORDER`], that of the moving average is above [`MAX_MA_ORDER`], or there is a
+    /// moving average without excitations.
     Order,
     /// The rate, or the maximum speed or force, is not a positive finite number.
     Range,
-    /// There is no triangle, or there are too many, or one refers to a node or neighbor that does not exist.
+    /// There is no triangle, or there are too many, or more nodes than [`MAX_NODES`], or a triangle refers to a node or
+    /// neighbor that does not exist.
     Triangle,
     /// A level, frequency, weight or gain is not finite or is out of range, or frequencies do not ascend within (0, π).
     Number,
@@ -125,7 +130,7 @@ pub struct Evaluated {
     /// Line spectral frequencies in radians; the first `order` are used.
     pub lsf: [f32; MAX_ORDER],
     /// Line spectral frequencies of the moving average in radians; the first `ma_order` are used.
-    pub ma_lsf: [f32; MAX_ORDER],
+    pub ma_lsf: [f32; MAX_MA_ORDER],
     /// Order of the moving average; zero without one.
     pub ma_order: usize,
     /// Output level (RMS) in m/s².
@@ -147,8 +152,13 @@ impl<'a> Texture<'a> {
     /// A texture over data that [`Texture::new`] has accepted before. It costs nothing, for an owner who lends the data
     /// at every tick. Invalid data give zero or non-finite output and never an out-of-bounds access.
     pub fn checked_before(parts: Parts<'a>) -> Self {
-        let (order, ma_order) = (parts.order.min(MAX_ORDER), parts.ma_order.min(MAX_ORDER));
+        let (order, ma_order) = (parts.order.min(MAX_ORDER), parts.ma_order.min(MAX_MA_ORDER));
         Self(Parts { order, ma_order, ..parts })
+    }
+
+    /// Data of the texture.
+    pub fn parts(&self) -> Parts<'a> {
+        self.0
     }
 
     /// Sample rate of the model, in Hz.
@@ -206,8 +216,8 @@ impl<'a> Texture<'a> {
         let contact = contact.sanitized();
         let x = (contact.speed_mps / self.0.speed_max_mps).min(1.0);
         let y = (contact.force_n / self.0.force_max_n).min(1.0);
-        let none = [0.0; MAX_ORDER];
-        let mut at = Evaluated { lsf: none, ma_lsf: none, ma_order: 0, level_mps2: 0.0, sigma_mps2: 0.0 };
+        let (lsf, ma_lsf) = ([0.0; MAX_ORDER], [0.0; MAX_MA_ORDER]);
+        let mut at = Evaluated { lsf, ma_lsf, ma_order: 0, level_mps2: 0.0, sigma_mps2: 0.0 };
         let [across_hint, along_hint] = hints;
         let Some(spot) = Spot::of(self.0.nodes, self.0.triangles, [x, y], across_hint) else { return at };
         spot.write_lsf(&mut at.lsf[..self.0.order]);

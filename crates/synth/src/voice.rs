@@ -3,13 +3,19 @@
 pub use crate::limits::MAX_TICK;
 use crate::lsf::ar_from_lsf;
 use crate::moving_average::MovingAverage;
-use crate::texture::{Evaluated, MAX_ORDER};
+use crate::texture::{Evaluated, MAX_MA_ORDER, MAX_ORDER};
 
 /// Number of predictor coefficients for the most recent outputs. Only these have to wait for the previous sample.
 const RECENT: usize = 4;
 /// The other coefficients are processed in groups of this size, so that the compiler can vectorize them.
 const LANES: usize = 4;
 const MAX_CHUNKS: usize = (MAX_ORDER - RECENT) / LANES;
+/// Number of groups of all orders up to [`USUAL_ORDER`].
+const USUAL_CHUNKS: usize = 7;
+/// Number of groups of all orders up to 48.
+const MIDDLE_CHUNKS: usize = 11;
+/// Highest order that needs neither longer loops nor a longer memory.
+const USUAL_ORDER: usize = RECENT + LANES * USUAL_CHUNKS;
 /// Excitations and filter states below this magnitude are treated as silence.
 const TINY_MPS2: f32 = 1e-20;
 /// Linear predictor of one texture, with its filter state and excitation level.
@@ -20,7 +26,8 @@ pub struct Voice {
     /// Coefficients `a_5 …`; each group is in reverse order, to match the order of `memory`.
     older: [[f32; LANES]; MAX_CHUNKS],
     n_chunks: usize,
-    /// Last outputs, oldest first, followed by room for one tick.
+    /// Last outputs, oldest first, followed by room for one tick. Those before the last [`USUAL_ORDER`] are zero while
+    /// the order is not higher.
     memory: [f32; MAX_ORDER + MAX_TICK],
     sigma: f32,
     sigma_next: f32,
@@ -53,11 +60,21 @@ impl Voice {
         let mut ar = [0.0; MAX_ORDER];
         ar_from_lsf(&at.lsf[..order], &mut ar[..order]);
         self.recent.copy_from_slice(&ar[..RECENT]);
-        self.n_chunks = order.saturating_sub(RECENT).div_ceil(LANES);
-        for (chunk, a) in self.older.iter_mut().zip(ar[RECENT..].chunks_exact(LANES)) {
+        let n_chunks = order.saturating_sub(RECENT).div_ceil(LANES);
+        if (n_chunks > USUAL_CHUNKS) != (self.n_chunks > USUAL_CHUNKS) {
+            self.memory[..MAX_ORDER - USUAL_ORDER].fill(0.0);
+        }
+        self.n_chunks = n_chunks;
+        // Loops of fixed length also read groups above the order, whose coefficients are zero.
+        let n_set = match n_chunks {
+            n if n <= USUAL_CHUNKS => USUAL_CHUNKS,
+            n if n <= MIDDLE_CHUNKS => MIDDLE_CHUNKS,
+            _ => MAX_CHUNKS,
+        };
+        for (chunk, a) in self.older.iter_mut().zip(ar[RECENT..].chunks_exact(LANES)).take(n_set) {
             *chunk = [a[3], a[2], a[1], a[0]];
         }
-        self.moving_average.aim(&at.ma_lsf[..at.ma_order.min(MAX_ORDER)]);
+        self.moving_average.aim(&at.ma_lsf[..at.ma_order.min(MAX_MA_ORDER)]);
         self.sigma = self.sigma_next;
         self.sigma_next = if at.sigma_mps2 < TINY_MPS2 { 0.0 } else { at.sigma_mps2 };
     }
@@ -65,8 +82,8 @@ impl Voice {
     /// Adds the voice's output to `out` (at most [`MAX_TICK`] samples), multiplied by a weight that changes linearly
     /// from `weights.0` to `weights.1`. The excitation is `noise` of unit variance, of the same length.
     ///
-    /// Cost per sample: `order` multiply-adds, of which all but four are independent of the previous sample; with a
-    /// moving average, [`MAX_ORDER`] more.
+    /// Cost per sample: as many multiply-adds as the next higher of the orders 12, 16, 20, 32, 48 and 64, of which all
+    /// but four are independent of the previous sample; with a moving average, [`MAX_MA_ORDER`] more.
     #[inline]
     pub fn add_tick(&mut self, noise: &[f32], weights: (f32, f32), out: &mut [f32]) {
         let n = noise.len().min(out.len()).min(MAX_TICK);
@@ -98,6 +115,8 @@ impl Voice {
             2 => self.run::<2>(noise, sigmas, weights, out),
             3 => self.run::<3>(noise, sigmas, weights, out),
             4 => self.run::<4>(noise, sigmas, weights, out),
+            n if n <= USUAL_CHUNKS => self.run::<USUAL_CHUNKS>(noise, sigmas, weights, out),
+            n if n <= MIDDLE_CHUNKS => self.run::<MIDDLE_CHUNKS>(noise, sigmas, weights, out),
             _ => self.run::<MAX_CHUNKS>(noise, sigmas, weights, out),
         }
     }
@@ -137,7 +156,9 @@ impl Voice {
             (y4, y3, y2, y1) = (y3, y2, y1, y);
             out[i] += weight * y;
         }
-        m.copy_within(n.., 0);
+        // Usual orders do not move what only a high order needs.
+        let n_kept = if CHUNKS > USUAL_CHUNKS { MAX_ORDER } else { USUAL_ORDER };
+        m.copy_within(MAX_ORDER + n - n_kept..MAX_ORDER + n, MAX_ORDER - n_kept);
     }
 
     /// Sets a filter state that has decayed below [`TINY_MPS2`] to exactly zero. Subnormal numbers (below 1e-38) cost a
@@ -170,7 +191,7 @@ mod tests {
     use super::{MAX_TICK, TINY_MPS2, Voice};
     use crate::lsf::ar_from_lsf;
     use crate::noise::{Gaussian, Noise};
-    use crate::texture::{Evaluated, MAX_ORDER};
+    use crate::texture::{Evaluated, MAX_MA_ORDER, MAX_ORDER};
     use std::vec;
     use std::vec::Vec;
 
@@ -180,7 +201,7 @@ mod tests {
             // Uneven gaps give resonances where they are narrow.
             *w = core::f32::consts::PI * (i as f32 + 0.7 + 0.25 * (i as f32).sin()) / (order as f32 + 1.0);
         }
-        Evaluated { lsf, ma_lsf: [0.0; MAX_ORDER], ma_order: 0, level_mps2: 1.0, sigma_mps2 }
+        Evaluated { lsf, ma_lsf: [0.0; MAX_MA_ORDER], ma_order: 0, level_mps2: 1.0, sigma_mps2 }
     }
 
     #[test]
@@ -221,6 +242,33 @@ mod tests {
     }
 
     #[test]
+    fn the_order_can_change_and_nothing_of_the_old_coefficients_stays() {
+        let playing = |order: usize| {
+            let at = evaluated(order, 0.5);
+            let mut voice = Voice::new();
+            voice.aim(order, &at);
+            voice.aim(order, &at);
+            voice
+        };
+        let tick = |voice: &mut Voice| {
+            let mut out = [0.0; MAX_TICK];
+            voice.add_tick(&[1.0; MAX_TICK], (1.0, 1.0), &mut out);
+            out
+        };
+        for (first, second) in [(64, 20), (64, 33), (48, 32), (20, 64), (8, 33), (33, 48)] {
+            let mut changed = playing(first);
+            for _ in 0..4 {
+                tick(&mut changed);
+            }
+            // A voice that always had the second order, with the same last outputs.
+            let mut fresh = playing(second);
+            fresh.memory = changed.memory;
+            changed.aim(second, &evaluated(second, 0.5));
+            assert_eq!(tick(&mut changed), tick(&mut fresh), "order {first}, then {second}");
+        }
+    }
+
+    #[test]
     fn level_and_weight_move_in_straight_lines() {
         let mut at = evaluated(2, 0.0);
         let mut voice = Voice::new();
@@ -237,6 +285,9 @@ mod tests {
     #[test]
     fn rings_out_to_exactly_zero() {
         let mut voice = Voice::new();
+        // What a high order leaves behind must not keep the voice from silence.
+        voice.aim(64, &evaluated(64, 1.0));
+        voice.add_tick(&[1.0; 20], (1.0, 1.0), &mut [0.0; 20]);
         voice.aim(8, &evaluated(8, 1.0));
         voice.add_tick(&[1.0; 20], (1.0, 1.0), &mut [0.0; 20]);
         for _ in 0..2000 {

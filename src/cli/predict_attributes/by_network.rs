@@ -14,8 +14,9 @@ use shagreen_learn::model_file::sha256_of;
 use shagreen_learn::stroke_model::StrokeModel;
 
 use crate::cli::output;
-use crate::cli::predict_attributes::{Args, Attribute, UNIFORM_DEVIATION, as_json, table_text};
+use crate::cli::predict_attributes::{Args, Attribute, as_json, table_text};
 use crate::cli::stroke_recordings::StrokeRecordings;
+use shagreen_studio::attribute_prediction::UNIFORM_DEVIATION;
 use shagreen_studio::file;
 
 /// Predicts the attributes of the recordings with a network trained on strokes. The standard deviations are its

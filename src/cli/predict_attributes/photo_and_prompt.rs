@@ -15,19 +15,17 @@ use shagreen_formats::lexicon_toml::{LEXICON_TEXT, built_in_lexicon};
 use shagreen_formats::picture::photo_pixels;
 use shagreen_learn::model_file::sha256_of;
 use shagreen_learn::picture_predictor::{PicturePrediction, PicturePredictor};
+use shagreen_studio::attribute_prediction::{LEXICON, UNIFORM_DEVIATION};
 use shagreen_studio::file;
 use shagreen_studio::photo_predictor::described;
 use shagreen_studio::seen_materials::{SeenMaterial, doubt_with_advice, looks_like, seen_materials};
 
 use crate::cli::backbone_source::read_backbone;
 use crate::cli::output;
-use crate::cli::predict_attributes::{Args, Attribute, UNIFORM_DEVIATION, as_json, table_text};
+use crate::cli::predict_attributes::{Args, Attribute, as_json, table_text};
 use crate::cli::progress::Progress;
 use crate::cli::prompt_summary::{disagreement, prompt_summary};
 use crate::cli::seen_json::{doubts_json, materials_json};
-
-/// Name of the predictor of prompts.
-const LEXICON: &str = "lexicon of estimated attributes";
 
 /// What a model predicts from a photo.
 struct Look {

@@ -24,6 +24,11 @@ impl TextureArgs {
         self.project.is_some()
     }
 
+    /// Returns whether a library or a project was named.
+    pub(crate) fn is_given(&self) -> bool {
+        self.has_project() || self.library.path().is_some()
+    }
+
     /// Loads the textures that a plan can name.
     pub(crate) fn load(&self) -> anyhow::Result<StudyTextures> {
         match &self.project {

@@ -1,7 +1,7 @@
 //! Networks that can be trained, and the acceleration that they read, by their names on the command line.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use shagreen_learn::cnn_lstm::{Architecture, Streams};
+use shagreen_learn::cnn_lstm::Architecture;
 
 /// Network that can be trained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,12 +46,11 @@ impl Network {
     }
 
     pub(super) fn architecture(self, axes: Axes, n_outputs: usize) -> Architecture {
-        let paper = Architecture::paper320(n_outputs);
         let architecture = match self {
-            Self::Paper320 => paper,
+            Self::Paper320 => Architecture::paper320(n_outputs),
             Self::Literal => Architecture::literal(n_outputs),
-            Self::Convolutions => Architecture { streams: Streams::Convolutions, ..paper },
-            Self::Memory => Architecture { streams: Streams::Memory, ..paper },
+            Self::Convolutions => Architecture::convolutions(n_outputs),
+            Self::Memory => Architecture::memory(n_outputs),
             Self::Serial => Architecture::serial(n_outputs),
         };
         match axes {

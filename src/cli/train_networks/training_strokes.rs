@@ -3,25 +3,23 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail, ensure};
-use shagreen_core::maths::rng::derive_seed;
 use shagreen_core::recording::fit::Stroke;
-use shagreen_core::texture::patterns::{
-    PAPER_RATE, PAPER_SECS, PatternPlan, paper_patterns, render_patterns,
-};
+use shagreen_core::texture::patterns::PAPER_RATE;
 use shagreen_core::words::counted;
 use shagreen_formats::attribute_table::AttributeTable;
 use shagreen_formats::bounded_file::FileKind;
-use shagreen_formats::library::{Library, free_id, id_from_name};
+use shagreen_formats::library::Library;
 use shagreen_formats::recording::{Ask, ColumnMap};
 use shagreen_formats::texture_files::{TextureFile, TextureFileKind, read_texture_files};
 use shagreen_learn::stroke_set::StrokedTexture;
 
-use crate::cli::output;
+use crate::cli::output::{self, Printed};
 use crate::cli::recording_answers::{map_of, parse_answer};
 use crate::cli::stroke_recordings::StrokeRecordings;
 use crate::cli::train_networks::network_kind::Axes;
 use shagreen_studio::file;
 use shagreen_studio::near_names::unknown_texture;
+use shagreen_studio::training_strokes::{of_textures, rendered_strokes};
 
 #[derive(clap::Args)]
 pub(super) struct RecordingTableArgs {
@@ -46,33 +44,14 @@ impl RecordingTableArgs {
     }
 }
 
-/// Returns the 25 strokes of the paper on each texture, each texture with its own noise. `share` is the fraction of each
-/// stroke that is used.
+/// Returns the 25 strokes of the paper on each texture ([`rendered_strokes`]), and prints its warnings.
 pub(super) fn rendered(
     library: &Library,
     table: &AttributeTable,
     share: f64,
     seed: u64,
 ) -> anyhow::Result<Vec<StrokedTexture>> {
-    let contacts = paper_patterns();
-    of_textures(library, table, |texture_id, model_idx| {
-        let plan = PatternPlan {
-            contacts: &contacts,
-            seconds: PAPER_SECS * share,
-            rate: PAPER_RATE,
-            seed: derive_seed(seed, texture_id),
-        };
-        let patterns = render_patterns(&library.textures[model_idx].model, &plan)?;
-        for warning in &patterns.warnings {
-            output::warn(&format!("{texture_id}: {warning}"));
-        }
-        let strokes = patterns.signals.into_iter().zip(&contacts).map(|(accel_mps2, contact)| Stroke {
-            speed_mps: vec![contact.speed.0; accel_mps2.len()],
-            force_n: vec![contact.force.0; accel_mps2.len()],
-            axes_mps2: vec![accel_mps2],
-        });
-        Ok(strokes.collect())
-    })
+    rendered_strokes(library, table, share, seed, &Printed)
 }
 
 /// Returns the strokes in the recordings of each texture, at the sample rate of the networks. `path` is the table of
@@ -130,25 +109,6 @@ fn read_strokes(files: &[PathBuf], map: &ColumnMap, axes: Axes) -> anyhow::Resul
         ));
     }
     Ok(recordings.strokes()?)
-}
-
-/// Returns the training set: the strokes that `strokes_of` returns for the id of each texture and its index in the
-/// library.
-fn of_textures(
-    library: &Library,
-    table: &AttributeTable,
-    mut strokes_of: impl FnMut(&str, usize) -> anyhow::Result<Vec<Stroke>>,
-) -> anyhow::Result<Vec<StrokedTexture>> {
-    let mut ids: Vec<String> = Vec::new();
-    let of = |(index, attributes): (&usize, &Vec<f64>)| {
-        let texture_id = library.textures[*index].id.as_str();
-        let strokes = strokes_of(texture_id, *index).with_context(|| format!("texture \"{texture_id}\""))?;
-        // The state of each texture is saved in a file of this name.
-        let id = free_id(&id_from_name(texture_id), |id| ids.iter().any(|taken| taken == id));
-        ids.push(id.clone());
-        Ok(StrokedTexture { id, strokes, attributes: attributes.clone() })
-    };
-    table.textures.iter().zip(&table.values).map(of).collect()
 }
 
 /// Returns the lowest and highest tip speed, in mm/s, and normal force, in N, of all strokes.

@@ -124,9 +124,7 @@ pub(crate) fn copied(library: &Library, texture: usize, named: fn(&str) -> Strin
     let entry = &library.textures[texture];
     let name = free_name(&named(&entry.name), |name| library.textures.iter().any(|t| t.name == name));
     let id = free_id(&id_from_name(&name), |id| library.index_of(id).is_some());
-    let origin = if entry.origin.is_empty() { &library.origin } else { &entry.origin };
-    let (license, origin) = (library.license_of(entry).to_owned(), origin.clone());
-    TextureEntry { id, name, license, origin, ..entry.clone() }
+    TextureEntry { id, name, ..library.with_terms(entry) }
 }
 
 #[cfg(test)]

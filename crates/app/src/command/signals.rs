@@ -1,5 +1,6 @@
 //! Commands of the Signals workspace.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use crate::choices::signals::{FromA, Slot};
@@ -25,6 +26,12 @@ pub enum SignalsCommand {
     MakeB(FromA),
     /// Adds a signal to the list of textures, as a relief.
     Keep(Slot),
+    /// Asks for a model of d'.
+    AskWhichModel,
+    /// Loads a model of d'.
+    ReadModel(PathBuf),
+    /// Returns to the built-in model of d'.
+    UseBuiltInModel,
     /// Notes that a signal was exported, so that leaving it loses nothing.
     NoteExported(Arc<BenchSignal>),
 }

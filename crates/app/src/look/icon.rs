@@ -23,18 +23,33 @@ const JITTER: f64 = 0.14;
 const LEATHER: [f64; 3] = [74.0, 168.0, 148.0];
 const GAP: [f64; 3] = [9.0, 30.0, 27.0];
 
+/// Number of pebbles over the height of the splash picture.
+const PEBBLES_OF_SPLASH: usize = 14;
+
 /// Icon with this number of pixels along each side, the same every time.
 pub fn icon(side: usize) -> IconData {
-    let mut rgba = Vec::with_capacity(4 * side * side);
     let n_across = (side / PIXELS_A_PEBBLE).clamp(MIN_ACROSS, MAX_ACROSS);
+    drawn([side, side], n_across, is_inside)
+}
+
+/// Wide picture of the same leather and point, for packages and pages, the same every time.
+pub fn splash(width: usize, height: usize) -> IconData {
+    drawn([width, height], PEBBLES_OF_SPLASH, |_| true)
+}
+
+/// Picture with `n_across` pebbles over its height. Places are in shares of the height, and those that `is_inside` refuses
+/// are transparent.
+fn drawn([width, height]: [usize; 2], n_across: usize, is_inside: impl Fn([f64; 2]) -> bool) -> IconData {
+    let mut rgba = Vec::with_capacity(4 * width * height);
     let n_samples = SUPERSAMPLING * SUPERSAMPLING;
-    for pixel in 0..side * side {
+    for pixel in 0..width * height {
         let (mut sum, mut n_inside) = ([0.0; 3], 0_u32);
         for sample in 0..n_samples {
             let at = |pixel: usize, sample: usize| {
-                (pixel as f64 + (sample as f64 + 0.5) / SUPERSAMPLING as f64) / side as f64
+                (pixel as f64 + (sample as f64 + 0.5) / SUPERSAMPLING as f64) / height as f64
             };
-            let place = [at(pixel % side, sample % SUPERSAMPLING), at(pixel / side, sample / SUPERSAMPLING)];
+            let place =
+                [at(pixel % width, sample % SUPERSAMPLING), at(pixel / width, sample / SUPERSAMPLING)];
             if is_inside(place) {
                 let color = color(place, n_across);
                 sum.iter_mut().zip(color).for_each(|(sum, channel)| *sum += channel);
@@ -45,7 +60,7 @@ pub fn icon(side: usize) -> IconData {
         rgba.extend(sum.map(channel));
         rgba.push((255.0 * f64::from(n_inside) / n_samples as f64).round() as u8);
     }
-    IconData { rgba, width: side as u32, height: side as u32 }
+    IconData { rgba, width: width as u32, height: height as u32 }
 }
 
 /// Whether a place, in shares of the side, is within the rounded square.
@@ -115,7 +130,7 @@ fn unit(vector: [f64; 3]) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use super::{POINT, icon};
+    use super::{POINT, icon, splash};
     use egui::IconData;
 
     /// Pixel at a place in shares of the side.
@@ -141,6 +156,17 @@ mod tests {
             assert!(green > red && green > blue, "the point has the accent color");
         }
         assert_eq!(icon(64).rgba, icon(64).rgba);
+    }
+
+    #[test]
+    fn the_splash_is_opaque_and_shows_the_point_once() {
+        let drawn = splash(160, 80);
+        assert_eq!((drawn.width, drawn.height, drawn.rgba.len()), (160, 80, 4 * 160 * 80));
+        assert!(drawn.rgba.as_chunks::<4>().0.iter().all(|pixel| pixel[3] == 255));
+        // Places are in shares of the height.
+        let [red, green, blue, _] = pixel(&drawn, 0.5 * POINT[0], POINT[1]);
+        assert!(green > red && green > blue, "the point has the accent color");
+        assert_eq!(splash(160, 80).rgba, drawn.rgba);
     }
 
     /// The leather is lighter near the point than in the far corner.

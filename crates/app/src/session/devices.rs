@@ -4,6 +4,8 @@ use std::time::Instant;
 
 use shagreen_core::units::Hertz;
 use shagreen_device::audio_input::InputInfo;
+use shagreen_device::haptic_pen;
+use shagreen_device::haptic_pen::sender::HapticReading;
 use shagreen_device::output::{NULL_ID, OutputInfo};
 use shagreen_device::serial::ID_PREFIX;
 use shagreen_device::status::Status;
@@ -128,9 +130,16 @@ impl Session {
     /// Whether the open output renders friction: the profile of the actuator has a friction display, and the output is an
     /// audio output with the channel of the display.
     pub fn renders_friction(&self) -> bool {
-        let is_audio = self.output_id().is_some_and(|id| id != NULL_ID && !id.starts_with(ID_PREFIX));
+        let is_other =
+            |id: &str| [ID_PREFIX, haptic_pen::ID_PREFIX].iter().any(|prefix| id.starts_with(prefix));
+        let is_audio = self.output_id().is_some_and(|id| id != NULL_ID && !is_other(id));
         let Some((_, n_channels, _)) = self.stream().filter(|_| is_audio) else { return false };
         self.rig().channels(false).1.is_some_and(|friction| friction.channel_idx < usize::from(n_channels))
+    }
+
+    /// What a haptic pen plays instead of the signal; `None` for an output that plays the signal itself.
+    pub fn haptic_reading(&self) -> Option<HapticReading> {
+        self.sound.player.haptic_reading()
     }
 
     /// Sample rate in Hz, number of channels, and block size in frames of the open output.

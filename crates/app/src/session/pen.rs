@@ -3,11 +3,14 @@
 use std::collections::VecDeque;
 use std::sync::mpsc::Receiver;
 
+use shagreen_device::error::DeviceErrorKind;
+use shagreen_device::hid::choice::AUTOMATIC_ID;
 use shagreen_device::hid::live::{PenNotice, PenOptions, PenThread};
 use shagreen_device::hid::system::SystemPens;
 use shagreen_device::hid::tracker::{TrackedSample, TrackerOptions};
 use shagreen_device::kinematics::SpeedFilter;
 use shagreen_device::live::LiveInput;
+use shagreen_device::pen_backend::{Backend, Provides};
 use shagreen_device::stylus::{StylusInfo, StylusKind, list_styluses};
 
 use crate::state::background::in_background;
@@ -29,6 +32,10 @@ pub struct PenFacts {
     pub has_pressure: bool,
     /// Force at full pressure in N, if the pen reports force.
     pub full_n: Option<f64>,
+    /// How the pen is read.
+    pub backend: Backend,
+    /// Quantities that the pen provides.
+    pub provides: Provides,
 }
 
 /// Thread that reads a pen, and its newest samples.
@@ -36,6 +43,8 @@ pub struct PenFacts {
 pub(super) struct Pen {
     thread: Option<PenThread>,
     id: Option<String>,
+    /// Whether the window has the keyboard focus.
+    has_focus: bool,
     pub(super) pens: Vec<StylusInfo>,
     listing: Option<Receiver<Vec<StylusInfo>>>,
     pub(super) facts: Option<PenFacts>,
@@ -53,6 +62,19 @@ impl Pen {
             found.retain(|stylus| stylus.kind == StylusKind::Pen);
             found
         }));
+    }
+
+    /// Notes whether the window has the keyboard focus. A pen that was chosen automatically strokes only while it has:
+    /// nobody asked for it, and it also moves the pointer of other programs.
+    pub(super) fn set_focus(&mut self, has_focus: bool) {
+        let has_changed = std::mem::replace(&mut self.has_focus, has_focus) != has_focus;
+        if let Some(thread) = self.thread.as_ref().filter(|_| has_changed && self.is_automatic()) {
+            thread.set_active(has_focus);
+        }
+    }
+
+    fn is_automatic(&self) -> bool {
+        self.id.as_deref() == Some(AUTOMATIC_ID)
     }
 
     /// Reads the selected pen with the present settings. A new thread takes `live`, the pen's input to the engine.
@@ -79,6 +101,7 @@ impl Pen {
                 // While nothing sounds, the window draws hardly any frames by itself.
                 let ctx = ctx.clone();
                 thread.set_doorbell(move || ctx.request_repaint());
+                thread.set_active(self.has_focus || !self.is_automatic());
                 self.thread = Some(thread);
             }
             Err(error) => self.message = Some(error.to_string()),
@@ -101,6 +124,7 @@ impl Pen {
             self.listing = None;
         }
         self.fresh.clear();
+        let is_automatic = self.is_automatic();
         let Some(thread) = &mut self.thread else { return };
         while let Some(moment) = thread.next_moment() {
             if self.moments.len() == KEPT {
@@ -111,15 +135,25 @@ impl Pen {
         }
         while let Some(notice) = thread.next_notice() {
             match notice {
-                PenNotice::Connected { pen, size_m, is_size_doubtful, has_pressure, full_n } => {
-                    let name = pen.name;
-                    self.facts = Some(PenFacts { name, size_m, is_size_doubtful, has_pressure, full_n });
+                PenNotice::Connected { pen, size_m, is_size_doubtful, has_pressure, full_n, provides } => {
+                    let (name, backend) = (pen.name, pen.backend);
+                    self.facts = Some(PenFacts {
+                        name,
+                        size_m,
+                        is_size_doubtful,
+                        has_pressure,
+                        full_n,
+                        backend,
+                        provides,
+                    });
                     self.message = None;
                 }
                 PenNotice::Lost(error) | PenNotice::Waiting(error) => {
                     self.facts = None;
                     self.moments.clear();
-                    self.message = Some(error.to_string());
+                    // Without any pen, the mouse strokes, and nobody asked for more.
+                    let is_expected = is_automatic && error.kind() == DeviceErrorKind::NotFound;
+                    self.message = (!is_expected).then(|| error.to_string());
                 }
                 _ => {}
             }

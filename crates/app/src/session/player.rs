@@ -1,53 +1,36 @@
 //! The open output: textures sent to it, touches, and its status.
 
+mod signals;
+mod slots;
+
 use std::sync::Arc;
 use std::sync::mpsc::Receiver;
 use std::time::Instant;
 
-use shagreen_core::dsp::filter::resample;
 use shagreen_core::space::SpacePoint;
 use shagreen_core::space::authoring::Blending;
-use shagreen_core::texture::plane::Prepared;
-use shagreen_core::texture::render::synth_blend;
 use shagreen_core::texture::shape::Shape;
-use shagreen_core::units::Hertz;
 use shagreen_device::audio_input::{InputInfo, list_inputs};
-use shagreen_device::controls::{Controls, Drive, Input, Takeover};
-use shagreen_device::engine::{Handle, LoadError, LoadReason, SLOTS};
+use shagreen_device::controls::{Drive, Input, Takeover};
+use shagreen_device::engine::Handle;
 use shagreen_device::error::DeviceErrorKind;
+use shagreen_device::haptic_pen::sender::HapticReading;
 use shagreen_device::live::LiveInput;
 use shagreen_device::output::{OpenOptions, OutputInfo, OutputKind, Running, is_same_output, list_outputs};
 use shagreen_device::serial::{ID_PREFIX, list_serial_ports};
-use shagreen_device::signal::{Signal, SignalError};
 use shagreen_device::status::{LinkState, Status};
 use shagreen_device::stylus::MouseStylus;
-use shagreen_device::synth::drive::{DriveConfig, Driven};
-use shagreen_device::synth::renderer::{MAX_PARENTS, Mix, Parent, TextureId};
+use shagreen_device::synth::drive::DriveConfig;
+use shagreen_device::synth::renderer::TextureId;
 use shagreen_device::synth::tap::Tap;
-use shagreen_device::texture::OwnedTexture;
 
-use super::audible::{Audible, Made, Source};
 use super::opening::{Came, Opened, Opening, OutputChoice, Request};
+use crate::session::player::slots::MadeSlots;
 use crate::state::background::in_background;
 use crate::state::mouse_report::MouseReport;
 use crate::state::recorded_stroke::RecordedStroke;
 use crate::state::rig::Rig;
 use crate::state::scope_buffer::ScopeBuffer;
-use crate::strings;
-
-/// Duration of a test tone, in seconds.
-const TONE_SECS: f64 = 2.0;
-/// Maximum number of loaded textures; the least recently played one is unloaded.
-const KEPT: usize = SLOTS - 16;
-
-/// Slots of textures that are not those of the library, each with the number of its texture.
-#[derive(Debug, Default)]
-struct MadeSlots {
-    /// Slots in the present mix.
-    sounding: Vec<(u64, TextureId)>,
-    /// Slots loaded for the next mix.
-    next: Vec<(u64, TextureId)>,
-}
 
 /// Input of a mix: point, interpolation options, shape, index of the soloed texture, and key on its path.
 type Wanted = (SpacePoint, Blending, Shape, Option<usize>, Option<usize>);
@@ -277,123 +260,6 @@ impl Player {
         }
     }
 
-    /// Loads the audible textures and fades to them. If the output is busy or a texture is not prepared yet, the next
-    /// frame retries.
-    pub(super) fn send_mix(&mut self, heard: &Audible, ahead: &[Option<Prepared>], rate_hz: f64) {
-        let is_ready = |handle: &Handle| handle.config().model_rate_hz == rate_hz as f32;
-        if !self.mix_is_new || !self.handle.as_ref().is_some_and(is_ready) {
-            return;
-        }
-        self.n_mixes += 1;
-        self.unload_replaced(&heard.made);
-        let mut mix = Mix::silent(synth_blend(heard.mixing));
-        for (voice, parent) in heard.voices.iter().zip(&mut mix.parents[..MAX_PARENTS]) {
-            let id = match voice.source {
-                Source::Library(texture) => self.slot_of(texture, ahead),
-                Source::Made(number) => {
-                    let made = heard.made.iter().find(|made| made.number == number);
-                    made.and_then(|made| self.slot_of_made(made))
-                }
-            };
-            let Some(id) = id else { return };
-            *parent = Parent { id, weight: voice.share as f32 };
-        }
-        if let Some(handle) = &mut self.handle
-            && handle.set_controls(Controls { mix, tap: self.tap, ..handle.controls() }).is_ok()
-        {
-            self.mix_is_new = false;
-            let is_sounding =
-                |(_, id): &(u64, TextureId)| mix.parents.iter().any(|p| p.id == *id && p.weight > 0.0);
-            let MadeSlots { mut sounding, next } = std::mem::take(&mut self.made);
-            sounding.extend(next);
-            for slot in sounding {
-                if is_sounding(&slot) {
-                    self.made.sounding.push(slot);
-                } else {
-                    // It fades out before its slot is freed.
-                    handle.unload(slot.1);
-                }
-            }
-        }
-    }
-
-    /// Unloads textures that are not marked in `is_kept`, and resizes the slots to its length.
-    pub(super) fn keep(&mut self, is_kept: &[bool]) {
-        self.slots.resize(self.slots.len().max(is_kept.len()), None);
-        for (texture, slot) in self.slots.iter_mut().enumerate() {
-            let is_gone = !is_kept.get(texture).copied().unwrap_or(false);
-            if let (Some((id, _)), Some(handle)) = (slot.take_if(|_| is_gone), &mut self.handle) {
-                handle.unload(id);
-            }
-        }
-        self.slots.truncate(is_kept.len());
-    }
-
-    fn slot_of(&mut self, texture: usize, ahead: &[Option<Prepared>]) -> Option<TextureId> {
-        let handle = self.handle.as_mut()?;
-        if let Some((id, used)) = &mut self.slots[texture] {
-            *used = self.n_mixes;
-            return Some(*id);
-        }
-        let prepared = ahead.get(texture)?.as_ref()?;
-        if self.slots.iter().flatten().count() >= KEPT {
-            let oldest = (0..self.slots.len())
-                .filter(|i| self.slots[*i].is_some())
-                .min_by_key(|i| self.slots[*i].map(|s| s.1));
-            if let Some((id, _)) = oldest.and_then(|i| self.slots[i].take()) {
-                handle.unload(id);
-            }
-        }
-        let id = self.load(prepared)?;
-        self.slots[texture] = Some((id, self.n_mixes));
-        Some(id)
-    }
-
-    /// Unloads textures that were loaded for the next mix and are not in it any more, because the point or the shape
-    /// changed before they played.
-    fn unload_replaced(&mut self, made: &[Made]) {
-        let Some(handle) = &mut self.handle else { return };
-        self.made.next.retain(|(number, id)| {
-            let is_wanted = made.iter().any(|made| made.number == *number);
-            if !is_wanted {
-                handle.unload(*id);
-            }
-            is_wanted
-        });
-    }
-
-    /// Slot of a texture that is not one of the library, loaded if necessary.
-    fn slot_of_made(&mut self, made: &Made) -> Option<TextureId> {
-        let mut known = self.made.sounding.iter().chain(&self.made.next);
-        if let Some((_, id)) = known.find(|(number, _)| *number == made.number) {
-            return Some(*id);
-        }
-        let id = self.load(&made.prepared)?;
-        self.made.next.push((made.number, id));
-        Some(id)
-    }
-
-    /// Sends a texture to the output. If the output is busy, the next frame retries.
-    fn load(&mut self, prepared: &Prepared) -> Option<TextureId> {
-        let handle = self.handle.as_mut()?;
-        let refusal = match OwnedTexture::new(prepared.parts()) {
-            Ok(owned) => match handle.load(owned) {
-                Ok(id) => return Some(id),
-                Err(LoadError { reason: LoadReason::RingFull | LoadReason::NoSlot, .. }) => return None,
-                Err(error) => error.to_string(),
-            },
-            Err(error) => error.to_string(),
-        };
-        self.message = Some(refusal);
-        None
-    }
-
-    /// Number of loaded textures, except those that are fading out.
-    pub(super) fn n_loaded(&self) -> usize {
-        let is_loaded = |handle: &Handle| (0..SLOTS).filter(|id| handle.is_loaded(*id as TextureId)).count();
-        self.handle.as_ref().map_or(0, is_loaded)
-    }
-
     /// Sets the automatic stroke; the engine itself lets live input take over. A stroke recording is sent along if the
     /// output does not hold it. If the output is busy, the next frame retries.
     pub(super) fn set_hand(&mut self, hand: Option<Input>, stroke: Option<&Arc<RecordedStroke>>) {
@@ -424,38 +290,12 @@ impl Player {
         }
     }
 
+    pub(super) fn haptic_reading(&self) -> Option<HapticReading> {
+        self.running.as_ref()?.haptic_reading()
+    }
+
     pub(super) fn stream(&self) -> Option<(u32, u16, Option<u32>)> {
         self.running.as_ref().map(|r| (r.rate_hz(), r.channels(), r.buffer_frames()))
-    }
-
-    pub(super) fn play_tone(&mut self, frequency_hz: f64, amplitude_mps2: f64) {
-        self.play(|rate_hz| Signal::tone(frequency_hz, amplitude_mps2, TONE_SECS, rate_hz));
-    }
-
-    pub(super) fn play_samples(&mut self, samples_mps2: &[f64], rate: Hertz) {
-        self.play(|rate_hz| {
-            let samples = resample(samples_mps2, rate, Hertz(rate_hz));
-            Signal::new(samples.iter().map(|x| *x as f32).collect(), rate_hz, Driven::Acceleration)
-        });
-    }
-
-    /// Plays the signal that `made` returns for the sample rate of the output in Hz.
-    fn play(&mut self, made: impl FnOnce(f64) -> Result<Signal, SignalError>) {
-        let Some(handle) = &mut self.handle else { return };
-        match made(f64::from(handle.config().device_rate_hz)) {
-            Ok(signal) => {
-                if handle.play_signal(signal).is_err() {
-                    self.message = Some(strings::OUTPUT_BUSY.to_owned());
-                }
-            }
-            Err(error) => self.message = Some(error.to_string()),
-        }
-    }
-
-    pub(super) fn stop_tone(&mut self) {
-        if let Some(handle) = &mut self.handle {
-            handle.stop_signal();
-        }
     }
 
     pub(super) fn is_opening(&self) -> bool {

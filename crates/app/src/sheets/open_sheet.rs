@@ -1,4 +1,4 @@
-//! Sheet that opens a project, library, stroke or signal: with the file dialog of the system, by its path, or by
+//! Sheet that opens a project, library, stroke, signal or model of d': with the file dialog of the system, by its path, or by
 //! browsing folders in the sheet, since not every Linux system has such a dialog.
 
 use std::path::{Path, PathBuf};
@@ -6,6 +6,7 @@ use std::sync::mpsc::Receiver;
 
 use egui::{Button, Context, Key, Label, RichText, ScrollArea, TextEdit, Ui};
 use shagreen_formats::project::EXTENSION;
+use shagreen_formats::quality_model;
 
 use crate::browse::{Asked, BROWSE_WIDTH, Browse};
 use crate::choices::signals::Slot;
@@ -19,7 +20,7 @@ use crate::signals::reading::SIGNAL_ENDINGS;
 use crate::state::background::in_background;
 use crate::state::recorded_stroke::TABLE_ENDINGS;
 use crate::state::source::Source;
-use crate::strings::{document as strings, signals, stroke};
+use crate::strings::{differences, document as strings, signals, stroke};
 
 /// Height of the list, in points.
 const LIST_HEIGHT: f32 = 260.0;
@@ -44,6 +45,8 @@ enum Wanted {
     Strokes,
     /// File that becomes a signal in a slot of the Signals workspace.
     Signal(Slot),
+    /// Models of d'.
+    Models,
 }
 
 impl Wanted {
@@ -52,6 +55,7 @@ impl Wanted {
             Self::Projects => &[EXTENSION, "json"],
             Self::Strokes => &TABLE_ENDINGS,
             Self::Signal(_) => &SIGNAL_ENDINGS,
+            Self::Models => &[quality_model::EXTENSION],
         }
     }
 
@@ -60,6 +64,7 @@ impl Wanted {
             Self::Projects => (strings::OPEN_TITLE, strings::OPEN_KIND),
             Self::Strokes => (stroke::OPEN_TITLE, stroke::OPEN_KIND),
             Self::Signal(_) => (signals::OPEN_TITLE, signals::OPEN_KIND),
+            Self::Models => (differences::OPEN_MODEL_TITLE, differences::OPEN_MODEL_KIND),
         };
         Asked { title, kind, endings: self.endings(), folder: Some(folder), ..Asked::default() }
     }
@@ -86,6 +91,11 @@ impl OpenSheet {
     /// Sheet that opens a signal, starting in `folder`.
     pub(crate) fn of_signals(slot: Slot, folder: &Path, ctx: &Context) -> Self {
         Self::of(Wanted::Signal(slot), folder, ctx)
+    }
+
+    /// Sheet that opens a model of d', starting in `folder`.
+    pub(crate) fn of_models(folder: &Path, ctx: &Context) -> Self {
+        Self::of(Wanted::Models, folder, ctx)
     }
 
     fn of(wanted: Wanted, folder: &Path, ctx: &Context) -> Self {
@@ -147,6 +157,7 @@ impl OpenSheet {
             Wanted::Projects => (strings::OPEN_TITLE, strings::OPEN_HINT),
             Wanted::Strokes => (stroke::OPEN_TITLE, stroke::OPEN_HINT),
             Wanted::Signal(_) => (signals::OPEN_TITLE, signals::OPEN_PATH_HINT),
+            Wanted::Models => (differences::OPEN_MODEL_TITLE, differences::OPEN_MODEL_HINT),
         };
         ui.add(Label::new(RichText::new(title).heading().strong()).selectable(false));
         ui.add_space(GAP);
@@ -191,6 +202,7 @@ impl OpenSheet {
                     Wanted::Projects => Command::File(FileCommand::Open(path)),
                     Wanted::Strokes => Command::Stroke(StrokeCommand::Read(vec![Source::Path(path)])),
                     Wanted::Signal(slot) => Command::Signals(SignalsCommand::Read(slot, Source::Path(path))),
+                    Wanted::Models => Command::Signals(SignalsCommand::ReadModel(path)),
                 });
             }
         }

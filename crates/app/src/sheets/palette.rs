@@ -1,7 +1,7 @@
 //! Command palette: a list of commands with search.
 
 use egui::{Button, Context, Id, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
-use shagreen_studio::export::{ExportFormat, FORMATS};
+use shagreen_studio::export::{self, FormatInfo, WAV};
 
 use crate::command::{Command, FileCommand, listed};
 use crate::look::sheet_frame::sheet;
@@ -120,12 +120,14 @@ fn all(ctx: &Context) -> Vec<Row> {
         let keys = command.shortcut_text(ctx);
         Some(Row { command, label: entry.label.to_owned(), keys })
     };
-    let export = |format: &'static dyn ExportFormat| Row {
-        command: Command::File(FileCommand::Export(format.id())),
-        label: strings::export_as(format.name()),
+    let export = |format: FormatInfo| Row {
+        command: Command::File(FileCommand::Export(format.id)),
+        label: strings::export_as(format.name),
         keys: String::new(),
     };
-    others.filter_map(row).chain(FORMATS.into_iter().map(export)).collect()
+    // WAV has an entry in the menu of files, which is listed with the others.
+    let formats = export::listed().filter(|format| *format != WAV);
+    others.filter_map(row).chain(formats.map(export)).collect()
 }
 
 /// Rows that contain every word of the query; those that begin with it come first.

@@ -1,5 +1,6 @@
 //! Analyses of signals. Background workers run them, since coding at five bit rates takes a second.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use shagreen_core::signals::codec::CODEC_RATE;
@@ -13,8 +14,9 @@ use shagreen_core::signals::spatial_spectrogram::{
     refine,
 };
 use shagreen_formats::codec_tables::built_in_codebooks;
-use shagreen_formats::quality_model::built_in_quality_model;
 use shagreen_formats::thresholds::ThresholdKind;
+use shagreen_studio::file::one_line;
+use shagreen_studio::quality_model::{ChosenModel, load_quality_model};
 
 use crate::state::bench_signal::BenchSignal;
 use crate::strings::signals as strings;
@@ -67,15 +69,17 @@ pub(super) fn by_window(signal: &BenchSignal) -> Vec<ProfileFidelity> {
     fidelity_by_window(values, step_m, &windows_of(signal)).unwrap_or_default()
 }
 
-/// Returns the fidelity of a signal at each bit rate of the codec, lowest bit rate first.
+/// Returns the fidelity of a signal at each bit rate of the codec, lowest bit rate first. `model` predicts d'; `None` is the
+/// built-in one.
 ///
 /// # Errors
 /// A sentence: the signal is too short or cannot be encoded.
-pub(super) fn by_rate(signal: &BenchSignal) -> ByRate {
+pub(super) fn by_rate(signal: &BenchSignal, model: Option<&ChosenModel>) -> ByRate {
     let samples = signal.at(CODEC_RATE);
-    let meter = meter(samples.len())?;
+    let chosen = model_or_built_in(model)?;
+    let model = &chosen.file.model;
+    let meter = meter(samples.len(), chosen.threshold())?;
     let books = Arc::new(built_in_codebooks().map_err(|error| error.to_string())?);
-    let model = built_in_quality_model().map_err(|error| error.to_string())?;
     let at = |rate: Bitrate| {
         let coded = Coded::encode(&samples, rate, &books).map_err(|error| error.to_string())?;
         let decoded = coded.decode(&books);
@@ -91,19 +95,25 @@ pub(super) fn by_rate(signal: &BenchSignal) -> ByRate {
     Ok(all)
 }
 
-/// Compares two signals sample by sample from their beginnings, for the length of the shorter one.
+/// Compares two signals sample by sample from their beginnings, for the length of the shorter one. `model` predicts d'; `None`
+/// is the built-in one.
 ///
 /// # Errors
 /// A sentence: the signals are too short, or their levels are far outside the range of touch.
-pub(super) fn compare(first: &BenchSignal, second: &BenchSignal) -> Result<Compared, String> {
+pub(super) fn compare(
+    first: &BenchSignal,
+    second: &BenchSignal,
+    model: Option<&ChosenModel>,
+) -> Result<Compared, String> {
     let [mut a, mut b] = [first, second].map(|signal| signal.at(PAPER_RATE));
     let n_samples = a.len().min(b.len());
     a.truncate(n_samples);
     b.truncate(n_samples);
-    let meter = meter(n_samples)?;
+    let chosen = model_or_built_in(model)?;
+    let model = &chosen.file.model;
+    let meter = meter(n_samples, chosen.threshold())?;
     let distances = meter.distances(&a, &b).map_err(|error| error.to_string())?;
     let features = |samples: &[f64]| meter.features(samples).map_err(|error| error.to_string());
-    let model = built_in_quality_model().map_err(|error| error.to_string())?;
     let d_prime = model.d_prime(&distances);
     if !d_prime.is_finite() {
         return Err(strings::BEYOND_TOUCH.to_owned());
@@ -119,9 +129,16 @@ pub(super) fn compare(first: &BenchSignal, second: &BenchSignal) -> Result<Compa
     })
 }
 
+fn model_or_built_in(model: Option<&ChosenModel>) -> Result<Cow<'_, ChosenModel>, String> {
+    match model {
+        Some(model) => Ok(Cow::Borrowed(model)),
+        None => load_quality_model(None).map(Cow::Owned).map_err(|error| one_line(&error)),
+    }
+}
+
 /// Quality meter, if the signal is long enough to be compared.
-fn meter(n_samples: usize) -> Result<QualityMeter, String> {
-    let threshold = ThresholdKind::default().read().map_err(|error| error.to_string())?;
+fn meter(n_samples: usize, threshold: ThresholdKind) -> Result<QualityMeter, String> {
+    let threshold = threshold.read().map_err(|error| error.to_string())?;
     let meter = QualityMeter::new(PAPER_RATE, &threshold).map_err(|error| error.to_string())?;
     if n_samples < meter.n_segment() {
         return Err(strings::TOO_SHORT.to_owned());
@@ -163,13 +180,14 @@ mod tests {
     use crate::state::bench_signal::BenchSignal;
     use crate::state::bench_signal::tests::tone;
     use shagreen_core::signals::codec::bitrate::Bitrate;
-    use shagreen_core::signals::quality::Relation;
+    use shagreen_core::signals::quality::{QualityModel, Relation, Term};
     use shagreen_core::units::Hertz;
+    use shagreen_studio::quality_model::load_quality_model;
 
     #[test]
     fn a_signal_against_itself_is_the_same_and_less_of_it_is_not() {
         let signal = tone(80.0, 4000.0, 1.7);
-        let same = compare(&signal, &signal).unwrap();
+        let same = compare(&signal, &signal, None).unwrap();
         assert_eq!((same.d_prime, same.seconds), (0.0, 1.6));
         assert!(same.snr_db.is_infinite());
         let restricted = vec!["not to be given away".to_owned()];
@@ -177,23 +195,30 @@ mod tests {
         let coded = through_codec(&licensed, Bitrate::ALL[0]).unwrap();
         assert_eq!((&coded.terms, &coded.restricted), (&licensed.terms, &licensed.restricted));
         assert!(coded.seconds() > 1.69 && coded.name.contains("kbit/s"));
-        let other = compare(&signal, &coded).unwrap();
+        let other = compare(&signal, &coded, None).unwrap();
         let sum: f64 = other.parts.iter().map(|(_, part)| part).sum();
         assert!((sum - other.d_prime).abs() < 1e-12 && other.d_prime > 0.0);
         assert!(other.snr_db.is_finite());
         assert_eq!((same.relation, other.relation), (Relation::Processed, Relation::Processed));
-        assert!(compare(&signal, &tone(80.0, 4000.0, 0.5)).is_err(), "too short");
+        assert!(compare(&signal, &tone(80.0, 4000.0, 0.5), None).is_err(), "too short");
+        // A model with half the weights predicts half of d'.
+        let mut half = load_quality_model(None).unwrap();
+        let terms = half.file.model.terms().iter().map(|term| Term { weight: 0.5 * term.weight, ..*term });
+        half.file.model = QualityModel::of_terms(terms.collect()).unwrap();
+        let by_half = compare(&signal, &coded, Some(&half)).unwrap();
+        assert!((by_half.d_prime / other.d_prime - 0.5).abs() < 1e-12);
+        assert_eq!(by_half.distances, other.distances);
     }
 
     #[test]
     fn one_signal_has_all_rates_and_the_windows_that_fit() {
         let signal = tone(80.0, 4000.0, 1.0);
-        let rates = by_rate(&signal).unwrap();
+        let rates = by_rate(&signal, None).unwrap();
         assert_eq!(rates.iter().map(|at| at.kbps).collect::<Vec<_>>(), [1.75, 2.15, 2.45, 2.75, 3.15]);
         // At a step of 25 µm, the window of 0.2 mm is eight samples long.
         assert_eq!(by_window(&signal).len(), 7);
         let short = tone(80.0, 4000.0, 0.5);
-        assert!(by_rate(&short).is_err() && by_window(&short).len() == 7);
+        assert!(by_rate(&short, None).is_err() && by_window(&short).len() == 7);
         let coarse = by_window(&tone(80.0, 400.0, 1.0));
         assert!(coarse.len() < 7 && coarse.len() > 2);
     }

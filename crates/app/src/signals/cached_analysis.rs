@@ -32,7 +32,7 @@ impl<T: Send + 'static, const N: usize> Known<T, N> {
         &mut self,
         signals: [Arc<BenchSignal>; N],
         ctx: &Context,
-        work: fn(&[Arc<BenchSignal>; N]) -> T,
+        work: impl FnOnce(&[Arc<BenchSignal>; N]) -> T + Send + 'static,
     ) {
         match self.asking.collect(ctx) {
             Some(Ok((of, value))) => self.answer = Some(Answer { of, value: Ok(value) }),
@@ -50,6 +50,11 @@ impl<T: Send + 'static, const N: usize> Known<T, N> {
                 (signals, value)
             });
         }
+    }
+
+    /// Discards the result and the computation that is running, because they depend on something that has changed.
+    pub(super) fn forget(&mut self) {
+        *self = Self::default();
     }
 
     /// Result about these signals, once it is computed.
@@ -88,6 +93,9 @@ mod tests {
         assert_eq!(found, Ok(first[0].profile.values()[1]));
         assert!(known.of(&second).is_none(), "nothing is known of it, whatever is known of another");
         assert_eq!(wait(&mut known, &second), Ok(second[0].profile.values()[1]));
+        known.forget();
+        assert!(known.of(&second).is_none());
+        assert_eq!(wait(&mut known, &second), Ok(second[0].profile.values()[1]), "it is computed again");
     }
 
     #[test]

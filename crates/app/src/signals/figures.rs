@@ -149,8 +149,8 @@ pub(super) fn fidelity_figure(of: &[(Tone, &str, &[ProfileFidelity])], window_m:
     })
 }
 
-/// Predicted d' between the signals and their coded versions, for each bit rate.
-pub(super) fn rates_figure(of: &[(Tone, &str, &ByRate)]) -> Figure {
+/// Predicted d' between the signals and their coded versions, for each bit rate. `source` names the model.
+pub(super) fn rates_figure(of: &[(Tone, &str, &ByRate)], source: &str) -> Figure {
     let told = vec![Point::new(1.6, 1.0), Point::new(3.3, 1.0)];
     let mut series = vec![line(strings::TOLD_APART, Tone::Limit, Mark::Line, told)];
     let mut highest = 2.0_f64;
@@ -169,12 +169,12 @@ pub(super) fn rates_figure(of: &[(Tone, &str, &ByRate)]) -> Figure {
         x_scale: Scale::Linear,
         shown: Some([(1.6, 3.3), (0.0, 1.08 * highest)]),
         series,
-        source: strings::PREDICTED.to_owned(),
+        source: source.to_owned(),
     })
 }
 
-/// Table with all features of a pair of signals.
-pub(super) fn features_figure(compared: &Compared, names: [&str; 2]) -> Figure {
+/// Table with all features of a pair of signals. `source` names the model of d'.
+pub(super) fn features_figure(compared: &Compared, names: [&str; 2], source: &str) -> Figure {
     let own = |feature, i: usize| {
         let of = &compared.features[i];
         match feature {
@@ -197,7 +197,7 @@ pub(super) fn features_figure(compared: &Compared, names: [&str; 2]) -> Figure {
         rows: Feature::ALL.into_iter().map(row).collect(),
         decimals: 3,
         n_counts: 0,
-        source: differences::features_source(names),
+        source: differences::features_source(names, source),
     })
 }
 
@@ -241,7 +241,7 @@ mod tests {
     fn a_signal_without_rates_leaves_the_others_shown() {
         let at = AtRate { kbps: 1.75, snr_db: 6.0, d_prime: 5.0 };
         let (with, without) = (Ok(vec![at]), Err("short".to_owned()));
-        let figure = rates_figure(&[(Tone::Main, "a", &with), (Tone::Second, "b", &without)]);
+        let figure = rates_figure(&[(Tone::Main, "a", &with), (Tone::Second, "b", &without)], "model");
         let Figure::Chart(chart) = figure else { panic!("no chart") };
         assert_eq!(chart.series.len(), 3, "the limit, a line and its dots");
         assert!(chart.bounds()[1].1 > 5.0);

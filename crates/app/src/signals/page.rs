@@ -1,5 +1,6 @@
 //! Page of the Signals workspace: the two slots on the left, the views of their signals beside them.
 
+mod model;
 mod views;
 
 use std::sync::Arc;
@@ -13,6 +14,7 @@ use super::analysis::{AtRate, Compared, compare, remade, through_codec};
 use super::cached_analysis::Known;
 use super::editor::Editor;
 use super::maps::Maps;
+use super::model_choice::ModelChoice;
 use super::playing::Playing;
 use super::slot::Place;
 use super::slot_ui::{State, place_ui, remaking_ui};
@@ -58,6 +60,7 @@ pub struct SignalsPage {
     /// Signal that is played at its own speed, regardless of the pen.
     playing: Option<Playing>,
     compared: Known<Result<Compared, String>, 2>,
+    model: ModelChoice,
     maps: Maps,
     spatial: Spatial,
 }
@@ -76,6 +79,7 @@ impl Default for SignalsPage {
             exported: None,
             playing: None,
             compared: Known::default(),
+            model: ModelChoice::default(),
             maps: Maps::default(),
             spatial: Spatial::default(),
         }
@@ -141,15 +145,18 @@ impl SignalsPage {
                 self.note_replaced(before.as_ref());
             }
         }
+        let predicts = self.collect_model(ctx);
         for place in &mut self.places {
             match self.view {
-                View::Times => {}
                 View::Places => place.ask_for_windows(ctx),
-                View::Differences => place.ask_for_rates(ctx),
+                View::Differences if predicts => place.ask_for_rates(self.model.own(), ctx),
+                View::Times | View::Differences => {}
             }
         }
-        if let Some(pair) = self.pair().filter(|_| self.view == View::Differences) {
-            self.compared.follow(pair, ctx, |[first, second]| compare(first, second));
+        if let Some(pair) = self.pair().filter(|_| predicts) {
+            let model = self.model.own().cloned();
+            let work = move |[first, second]: &Pair| compare(first, second, model.as_deref());
+            self.compared.follow(pair, ctx, work);
         }
         if self.felt_signal().is_none() {
             self.felt = None;

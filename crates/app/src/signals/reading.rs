@@ -1,4 +1,4 @@
-//! Files that become signals: recordings, profiles, and rows of photos or height maps.
+//! Files that become signals: recordings, haptic clips, profiles, and rows of photos or height maps.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -6,6 +6,7 @@ use std::sync::Arc;
 use shagreen_core::texture::profile::Profile;
 use shagreen_core::texture::relief::Relief;
 use shagreen_core::units::{MetersPerSecond, Newtons};
+use shagreen_formats::clip::ClipKind;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::picture::{brightness_row, is_picture};
 use shagreen_formats::profile_csv::read_profile_csv;
@@ -17,8 +18,8 @@ use crate::state::source::sidecar_of;
 use crate::strings::signals as strings;
 
 /// Endings of the names of files that become signals.
-pub(crate) const SIGNAL_ENDINGS: [&str; 9] =
-    ["wav", "csv", "png", "jpg", "jpeg", "webp", "bmp", "tif", "tiff"];
+pub(crate) const SIGNAL_ENDINGS: [&str; 11] =
+    ["wav", "haptic", "ahap", "csv", "png", "jpg", "jpeg", "webp", "bmp", "tif", "tiff"];
 
 /// Information that a file does not contain.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,7 +83,10 @@ impl BenchFile {
         let (name, bytes) = (source.name(), source.bytes()?);
         let kind = if is_picture(&bytes) {
             FileKind::Picture
-        } else if bytes.starts_with(b"RIFF") || source.ending() == "wav" {
+        } else if bytes.starts_with(b"RIFF")
+            || source.ending() == "wav"
+            || ClipKind::of(&name, &bytes).is_some()
+        {
             FileKind::Recording
         } else {
             FileKind::Profile

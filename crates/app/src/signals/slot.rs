@@ -5,6 +5,7 @@ use std::sync::Arc;
 use egui::Context;
 use shagreen_core::signals::spatial_spectrogram::ProfileFidelity;
 use shagreen_formats::imported::Imported;
+use shagreen_studio::quality_model::ChosenModel;
 
 use super::analysis::{ByRate, by_rate, by_window};
 use super::cached_analysis::Known;
@@ -167,11 +168,17 @@ impl Place {
         }
     }
 
-    /// Requests the fidelity at each bit rate of the codec.
-    pub(super) fn ask_for_rates(&mut self, ctx: &Context) {
+    /// Requests the fidelity at each bit rate of the codec. `model` predicts d'; `None` is the built-in one.
+    pub(super) fn ask_for_rates(&mut self, model: Option<&Arc<ChosenModel>>, ctx: &Context) {
         if let Some(signal) = &self.signal {
-            self.by_rate.follow([Arc::clone(signal)], ctx, |[signal]| by_rate(signal));
+            let model = model.cloned();
+            self.by_rate.follow([Arc::clone(signal)], ctx, move |[signal]| by_rate(signal, model.as_deref()));
         }
+    }
+
+    /// Discards what the model of d' has predicted.
+    pub(super) fn forget_rates(&mut self) {
+        self.by_rate.forget();
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use shagreen_formats::figure::{Figure, figure_csv, figure_png, figure_svg};
+use shagreen_formats::figure::{Figure, figure_csv, figure_png, figure_svg, is_figure_csv};
 
 /// First bytes of a PNG file.
 const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
@@ -70,7 +70,8 @@ impl FigureFile {
         }
     }
 
-    /// Whether a file with these bytes has the same kind of content: an image, or a table with the same columns.
+    /// Whether a file with these bytes has the same kind of content: an image, points of a chart or map, or a table with
+    /// the same columns.
     pub(crate) fn is_like(&self, bytes: &[u8]) -> bool {
         match self.format {
             // A declaration, a comment and a document type may precede the `svg` element.
@@ -79,6 +80,13 @@ impl FigureFile {
                 head.trim_start().starts_with('<') && head.contains("<svg")
             }
             FigureFormat::Png => bytes.starts_with(PNG_SIGNATURE),
+            FigureFormat::Csv if !matches!(*self.figure, Figure::Table(_)) => {
+                // Names and units of the axes may differ.
+                let is_chart = matches!(*self.figure, Figure::Chart(_));
+                is_figure_csv(bytes)
+                    && !bytes.starts_with(b"row,")
+                    && bytes.starts_with(b"series,") == is_chart
+            }
             FigureFormat::Csv => {
                 let first_line = |bytes: &[u8]| bytes.split(|b| *b == b'\n').next().map(<[u8]>::to_vec);
                 first_line(bytes) == first_line(&figure_csv(&self.figure))
@@ -90,7 +98,7 @@ impl FigureFile {
 #[cfg(test)]
 mod tests {
     use super::{FigureFile, FigureFormat};
-    use shagreen_formats::figure::{Figure, Table};
+    use shagreen_formats::figure::{Chart, Figure, Scale, Table};
 
     #[test]
     fn a_figure_takes_the_place_of_its_like_only() {
@@ -116,5 +124,27 @@ mod tests {
         assert!(!csv.is_like(&file("two", FigureFormat::Csv).bytes().unwrap()), "other columns");
         assert!(svg.is_like(b"<?xml version=\"1.0\"?>\n<!-- a --><svg/>") && !svg.is_like(b"my <svg> notes"));
         assert!(!svg.is_like(b"") && !csv.is_like(b""));
+    }
+
+    /// A chart of another quantity has other column names, and is a chart nevertheless.
+    #[test]
+    fn the_points_of_a_chart_take_the_place_of_a_chart() {
+        let chart = |x_label: &str| {
+            let figure = Figure::Chart(Chart {
+                title: String::new(),
+                x_label: x_label.to_owned(),
+                y_label: "level".to_owned(),
+                is_isotropic: false,
+                x_scale: Scale::Linear,
+                shown: None,
+                series: Vec::new(),
+                source: String::new(),
+            });
+            FigureFile { stem: "figure".to_owned(), figure: figure.into(), format: FigureFormat::Csv }
+        };
+        let in_ms = chart("time in ms");
+        assert!(in_ms.is_like(&chart("position in mm").bytes().unwrap()));
+        assert!(in_ms.is_like(b"series,label,x,y,source\n"));
+        assert!(!in_ms.is_like(b"x,y,value,source\n") && !in_ms.is_like(b"row,one,source\n"));
     }
 }

@@ -5,6 +5,7 @@ use anyhow::bail;
 use shagreen_core::actuator::{Actuator, ActuatorError, Drive, drive_config};
 use shagreen_core::units::{Kilograms, Volts};
 use shagreen_device::engine::{ChannelMask, FrictionConfig};
+use shagreen_device::hid::choice::AUTOMATIC_ID;
 use shagreen_device::output::{UNCALIBRATED_FULL_SCALE_MPS2, USUAL_BUFFER_FRAMES, USUAL_CEILING};
 use shagreen_device::pressure::PressureMap;
 use shagreen_device::synth::drive::DriveConfig;
@@ -82,9 +83,10 @@ pub struct Rig {
     pub equalizes: bool,
     /// Voltage at the actuator at full scale of the output, in V.
     pub full_scale_volts: f64,
-    /// Acceleration at full scale of the output in m/s², used for an unknown actuator.
+    /// Acceleration at full scale of the output in m/s², used for an actuator with an unknown response.
     pub full_scale_mps2: f64,
-    /// Id of the pen that is read.
+    /// Id of the pen that is read, or [`AUTOMATIC_ID`] for the one that provides most. `None` reads none: mouse and window
+    /// stroke.
     pub pen: Option<String>,
     /// Conversion from pressure to force, for pens that do not report force.
     pub pressure_map: PressureMap,
@@ -102,7 +104,7 @@ impl Default for Rig {
             equalizes: true,
             full_scale_volts: 1.0,
             full_scale_mps2: f64::from(UNCALIBRATED_FULL_SCALE_MPS2),
-            pen: None,
+            pen: Some(AUTOMATIC_ID.to_owned()),
             pressure_map: PressureMap::USUAL,
             pen_size_mm: None,
         }
@@ -120,6 +122,9 @@ impl Rig {
         }
         match self.actuator() {
             None => Ok(DriveConfig::proportional(self.full_scale_mps2 as f32, USUAL_CEILING)),
+            Some(actuator) if actuator.is_proportional() => {
+                Ok(DriveConfig::proportional(self.full_scale_mps2 as f32, USUAL_CEILING))
+            }
             Some(actuator) => {
                 Ok(drive_config(actuator, Drive::new(Volts(self.full_scale_volts))?, self.equalizes)?)
             }
@@ -173,6 +178,16 @@ mod tests {
         assert_eq!(rig.channels(true), (ChannelMask::FIRST_TWO, None));
         assert!(rig.opens_unlike(&Rig::default()));
         assert_eq!(Rig::default().channels(false), (ChannelMask::FIRST_TWO, None));
+    }
+
+    #[test]
+    fn a_controller_is_driven_in_proportion_until_it_is_calibrated() {
+        let profile = built_in_actuators().unwrap().into_iter().find(|actuator| actuator.id == "dualsense");
+        let mounted = Some(Mounted::new(profile.unwrap(), None).unwrap());
+        let rig = Rig { mounted, full_scale_mps2: 7.0, ..Rig::default() };
+        let drive = rig.drive().unwrap();
+        assert_eq!((drive.full_scale, drive.inverse), (7.0, None));
+        assert_eq!(rig.channels(false).0, ChannelMask::only(2).and(ChannelMask::only(3)));
     }
 
     #[test]

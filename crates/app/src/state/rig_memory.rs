@@ -13,6 +13,9 @@ use crate::strings::rig as strings;
 /// Valid channel numbers in the settings, which start at one. The maximum is the number of channels of a device.
 const CHANNELS: std::ops::RangeInclusive<usize> = 1..=64;
 
+/// Stored id for no pen: only mouse and window stroke. Settings without an id are a first start.
+const WINDOW_ONLY: &str = "window";
+
 /// Settings of `rig` for `output`; unknown settings are kept from `before`.
 pub(crate) fn remembered(rig: &Rig, output: String, before: Option<&RigSettings>) -> RigSettings {
     let missing = rig.missing.as_ref();
@@ -33,7 +36,7 @@ pub(crate) fn remembered(rig: &Rig, output: String, before: Option<&RigSettings>
 pub(crate) fn with_pen_of(rig: &Rig, before: Option<&RigSettings>) -> RigSettings {
     let PressureMap { activation_n, full_n, bend } = rig.pressure_map;
     RigSettings {
-        pen: rig.pen.clone(),
+        pen: Some(rig.pen.clone().unwrap_or_else(|| WINDOW_ONLY.to_owned())),
         pressure: Some(PressureSettings { activation_n, full_n, bend }),
         pen_size_mm: rig.pen_size_mm,
         ..before.cloned().unwrap_or_default()
@@ -84,7 +87,11 @@ pub(crate) fn restored(settings: &RigSettings) -> Rig {
         equalizes: settings.equalizes.unwrap_or(usual.equalizes),
         full_scale_volts: full_scale_volts.unwrap_or(usual.full_scale_volts),
         full_scale_mps2: full_scale_mps2.unwrap_or(usual.full_scale_mps2),
-        pen: settings.pen.clone(),
+        pen: match settings.pen.as_deref() {
+            Some(WINDOW_ONLY) => None,
+            Some(pen) => Some(pen.to_owned()),
+            None => usual.pen,
+        },
         pressure_map: settings.pressure.and_then(restored_map).unwrap_or(usual.pressure_map),
         pen_size_mm: settings.pen_size_mm.filter(|size| size.iter().all(|side| SIDES_MM.contains(side))),
     }
@@ -162,6 +169,15 @@ mod tests {
             assert_eq!(restored(&pen), Rig { pen: rig.pen, pressure_map, pen_size_mm, ..usual });
             assert_eq!((pen.output, pen.buffer_frames, pen.unknown), (before.output, None, before.unknown));
         }
+    }
+
+    #[test]
+    fn no_pen_comes_back_as_none_and_a_first_start_chooses_automatically() {
+        for pen in [None, Some("auto".to_owned()), Some("raw:056a:0061".to_owned())] {
+            let rig = Rig { pen, ..Rig::default() };
+            assert_eq!(restored(&with_pen_of(&rig, None)), rig);
+        }
+        assert_eq!(restored(&RigSettings::default()).pen.as_deref(), Some("auto"));
     }
 
     #[test]

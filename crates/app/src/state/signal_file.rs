@@ -1,6 +1,5 @@
 //! Export of the audible texture as a signal in m/s², with a sidecar.
 
-use std::io::ErrorKind;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -11,16 +10,19 @@ use shagreen_core::texture::render::{Hand, RenderError};
 use shagreen_core::texture::tap::Tap;
 use shagreen_core::units::{Contact, Hertz};
 use shagreen_device::track::Track;
-use shagreen_formats::bounded_file::{self, FileKind};
-use shagreen_formats::wav::{SidecarV1, TraceV1, is_sidecar, sidecar_path, write_wav_scaled};
+use shagreen_formats::wav::{SidecarV1, TraceV1};
 use shagreen_formats::wav_encoding::{Level, SampleType, WavEncoding};
+use shagreen_studio::export::{
+    SignalFormat, SignalSamples, StrokeSignal, shared_full_scale_mps2, write_signal,
+};
+use shagreen_studio::file::one_line;
 use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
-use shagreen_studio::replace::is_own_signal;
+use shagreen_studio::report::Warnings;
 use shagreen_studio::tap_transients::add_tap_transients;
 use shagreen_studio::trace::{TrackHand, steady_trace, track_trace};
 
 use crate::state::bench_signal::BenchSignal;
-use crate::strings::export as strings;
+use crate::state::document::CREATED_BY;
 
 /// Usual duration of the signal, in seconds.
 pub(crate) const SIGNAL_SECS: f64 = 5.0;
@@ -91,27 +93,64 @@ pub struct SignalFile {
 }
 
 impl SignalFile {
-    /// Renders the signal and writes it with its sidecar. `scale_mps2` becomes a sample of 1; `None` takes that of the encoding.
+    /// Renders the signal and writes its files. `full_scale_mps2` becomes a value of 1; `None` takes that of the signal.
     ///
     /// # Errors
-    /// States that the signal cannot be rendered or written, or that the path of the sidecar is taken by another kind
-    /// of file.
+    /// States that the signal cannot be rendered or written.
     pub(crate) fn write(
         &self,
+        format: &dyn SignalFormat,
         path: &Path,
         options: &SignalOptions,
-        scale_mps2: Option<f64>,
+        full_scale_mps2: Option<f64>,
     ) -> Result<(), String> {
-        if !Self::may_lie_beside(path) {
-            return Err(strings::not_replaced(&sidecar_path(path).display().to_string()));
-        }
         let (rate_hz, seconds) = (options.rate_hz, self.seconds(options));
-        let samples = self.samples(options)?;
-        let trace = self.trace(options);
-        let sidecar = SidecarV1 { rate_hz, seconds, trace, ..self.sidecar.clone() };
-        let scale_mps2 = scale_mps2.unwrap_or_else(|| options.encoding.full_scale(&samples));
-        let written = write_wav_scaled(path, &samples, &sidecar, (options.encoding.samples, scale_mps2));
-        written.map_err(|error| error.to_string())
+        let (texture, all) = self.samples_by_taps(options)?;
+        let samples = self.signal_samples(&texture, all.as_deref(), options);
+        let (trace, loops) = (self.trace(options), samples.loops);
+        let sidecar = SidecarV1 { rate_hz, seconds, loops, trace, ..self.sidecar.clone() };
+        let encoding = options.encoding;
+        let full_scale_mps2 = full_scale_mps2
+            .unwrap_or_else(|| shared_full_scale_mps2([format.full_scale_mps2(samples, encoding)]));
+        let signal = StrokeSignal { samples, sidecar: &sidecar, encoding, full_scale_mps2, acf: None };
+        // Its warnings are about a file of an earlier export, which stays and was not asked about, and about taps that are
+        // limited, which the description states.
+        let written = write_signal(format, &signal, (path, CREATED_BY), &Warnings::default());
+        written.map(|_| ()).map_err(|error| one_line(&error))
+    }
+
+    /// Acceleration in m/s² at full scale of a format, 0 for silence.
+    ///
+    /// # Errors
+    /// The signal cannot be rendered.
+    pub(crate) fn full_scale_mps2(
+        &self,
+        format: &dyn SignalFormat,
+        options: &SignalOptions,
+    ) -> Result<f64, String> {
+        let (texture, all) = self.samples_by_taps(options)?;
+        let samples = self.signal_samples(&texture, all.as_deref(), options);
+        Ok(format.full_scale_mps2(samples, options.encoding))
+    }
+
+    /// Samples for a format, from those without and with tap transients.
+    fn signal_samples<'a>(
+        &self,
+        texture: &'a [f32],
+        all: Option<&'a [f32]>,
+        options: &SignalOptions,
+    ) -> SignalSamples<'a> {
+        SignalSamples {
+            all: all.unwrap_or(texture),
+            without_taps: all.map(|_| texture),
+            rate: Hertz(f64::from(options.rate_hz)),
+            loops: self.loops(options),
+        }
+    }
+
+    /// Whether the end of the samples goes on into the beginning.
+    fn loops(&self, options: &SignalOptions) -> bool {
+        options.loops && self.stroke(options).is_none() && !self.is_of_bench()
     }
 
     /// Stroke that the tip follows with these options.
@@ -139,9 +178,15 @@ impl SignalFile {
     /// # Errors
     /// The signal cannot be rendered.
     pub(crate) fn samples(&self, options: &SignalOptions) -> Result<Vec<f32>, String> {
+        let (texture, all) = self.samples_by_taps(options)?;
+        Ok(all.unwrap_or(texture))
+    }
+
+    /// Samples in m/s² without tap transients, and with them if there are any.
+    fn samples_by_taps(&self, options: &SignalOptions) -> Result<(Vec<f32>, Option<Vec<f32>>), String> {
         let stroke = self.stroke(options);
         let rate = Hertz(f64::from(options.rate_hz));
-        let loops = options.loops && stroke.is_none();
+        let loops = self.loops(options);
         let format = SampleFormat { rate, seconds: self.seconds(options), seed: SIGNAL_SEED, loops };
         let (mut recorded, mut steady) = (stroke.map(TrackHand), |_: f64| self.contact);
         let hand: &mut dyn Hand = match &mut recorded {
@@ -153,8 +198,10 @@ impl SignalFile {
             Sounding::Path(path) => render_along(path, format, hand),
             Sounding::Mix(voices, mode) => render_mixture(voices, *mode, format, hand),
         };
-        let mut samples = rendered.map_err(|error| error.to_string())?;
+        let texture = rendered.map_err(|error| error.to_string())?;
+        let mut with_taps = None;
         if let (Some(track), Some(tap)) = (stroke, self.tap) {
+            let mut samples = texture.clone();
             let added = add_tap_transients(
                 &mut samples,
                 options.rate_hz,
@@ -163,8 +210,9 @@ impl SignalFile {
                 tap.into(),
             );
             added.map_err(|error| format!("{error:#}"))?;
+            with_taps = Some(samples).filter(|samples| *samples != texture);
         }
-        Ok(samples)
+        Ok((texture, with_taps))
     }
 
     /// Speed and force over time, for the sidecar.
@@ -172,19 +220,6 @@ impl SignalFile {
         match self.stroke(options) {
             Some(track) => track_trace(track),
             None => steady_trace(self.contact, self.seconds(options)),
-        }
-    }
-
-    /// Whether a signal may replace a file with these bytes at `path`: only another WAV file with a sidecar.
-    pub(crate) fn may_replace(path: &Path, bytes: &[u8]) -> bool {
-        is_own_signal(path, bytes)
-    }
-
-    /// Whether the path of the sidecar for a signal at `path` is free or has another sidecar.
-    pub(crate) fn may_lie_beside(path: &Path) -> bool {
-        match bounded_file::read(&sidecar_path(path), FileKind::Small) {
-            Ok(beside) => is_sidecar(&beside),
-            Err(error) => error.kind() == ErrorKind::NotFound,
         }
     }
 }

@@ -45,6 +45,7 @@ pub const LOAD: &str = "Load";
 pub const LOAD_HELP: &str =
     "Mass that the actuator moves, in g: the pen or a test mass, without the actuator";
 pub const MEASURED_LOAD: &str = "Load during measurement";
+pub const PROPORTIONAL: &str = "The response of this device is unknown: the drive is proportional to the acceleration until you measure it below.";
 pub const FULL_SCALE: &str = "Acceleration at full scale";
 pub const FULL_SCALE_HELP: &str = "Acceleration that drives the output to full scale, in m/s²";
 /// Kind of file in the dialog of the system.
@@ -57,9 +58,9 @@ pub const READING_BROKEN: &str = "reading the profile stopped unexpectedly; try 
 // Pen.
 pub const PEN: &str = "Pen";
 pub const MOUSE_ONLY: &str = "Mouse and window only";
-pub const PEN_HELP: &str =
-    "Pen that Shagreen reads directly, with less latency than through the window. The mouse keeps working.";
-pub const PEN_READ: &str = "is connected";
+pub const PEN_HELP: &str = "Pen that Shagreen reads directly, with less latency than through the window. The automatic choice is the connected pen that provides most, and strokes only while the window has the focus. The mouse keeps working.";
+pub const AUTOMATIC: &str = "Automatic";
+pub const WINDOW_POINTER: &str = "Window pointer";
 pub const ACTIVATION: &str = "Force at first touch";
 pub const FULL: &str = "Force at full pressure";
 pub const BEND: &str = "Curvature";
@@ -89,6 +90,28 @@ pub const CANCEL: &str = "Cancel";
 pub const CALIBRATION_BROKEN: &str = "the measurement stopped unexpectedly; try again";
 pub const CALIBRATION_LIMITED: &str =
     "The sweep was attenuated to the limits of the actuator. Measure again with a lower sweep amplitude.";
+
+/// How strokes are read, and what this provides.
+pub fn pen_read(name: &str, backend: &str, provided: &str) -> String {
+    format!("{name} is read by {backend}: {provided}")
+}
+
+/// A pen in the list, with how it is read.
+pub fn pen_choice(name: &str, backend: &str) -> String {
+    format!("{name}, {backend}")
+}
+
+/// What the pointer of the window provides.
+pub fn window_pointer(provided: &str) -> String {
+    format!("{WINDOW_POINTER}: {provided}")
+}
+
+/// What a haptic pen plays instead of the signal.
+pub fn haptic_pen(waveform: &str, percent: u8) -> String {
+    format!("Approximation: the pen plays its waveform \"{waveform}\" at {percent} %")
+}
+
+pub const HAPTIC_PEN_SILENT: &str = "Approximation: the pen plays the one of its own waveforms that is nearest to the texture. Now it is silent.";
 
 pub fn calibration_dropouts(n: u64) -> String {
     format!("Number of dropouts during the measurement: {n}. Close other programs and measure again.")
@@ -120,6 +143,11 @@ pub fn buffer(frames: u32, rate_hz: f64) -> String {
 /// One channel; `channel_idx` starts at 0.
 pub fn channel(channel_idx: usize) -> String {
     format!("channel {}", channel_idx + 1)
+}
+
+/// One channel with its name; `channel_idx` starts at 0.
+pub fn named_channel(channel_idx: usize, name: &str) -> String {
+    format!("{}, {name}", channel(channel_idx))
 }
 
 pub fn stream(rate_hz: u32, channels: u16, block_frames: Option<u32>) -> String {

@@ -4,7 +4,6 @@ use shagreen_core::signals::quality::{Feature, MOST_D_PRIME, Relation};
 
 use crate::choices::signals::Slot;
 use crate::strings::digits::three_digits;
-use crate::strings::signals::PREDICTED;
 
 /// Stands for a number that does not exist.
 pub const NONE: &str = "\u{2013}";
@@ -25,9 +24,34 @@ pub fn features_title(d_prime: f64, relation: Relation) -> String {
     }
 }
 
-/// Source of the table of features: both signals and the model, one a line.
-pub fn features_source([first, second]: [&str; 2]) -> String {
-    format!("{}; {}; {PREDICTED}", named(Slot::A, first), named(Slot::B, second))
+/// Source of the table of features: both signals and the model.
+pub fn features_source([first, second]: [&str; 2], model: &str) -> String {
+    format!("{}; {}; {model}", named(Slot::A, first), named(Slot::B, second))
+}
+
+/// Source of a prediction by an opened model with this name and origin.
+pub fn predicted_by(name: &str, origin: &str) -> String {
+    format!("predicted by {name} ({origin}), not rated by people")
+}
+
+pub const MODEL: &str = "Model of d'";
+pub const MODEL_HELP: &str = "Model that predicts d' from the distances of the features. The built-in one has published weights, and lengths from simulated textures.";
+pub const OPEN_MODEL: &str = "Open…";
+/// Accessible name of the button that opens a model.
+pub const OPEN_MODEL_NAME: &str = "Open a model of d'";
+pub const OPEN_MODEL_HELP: &str = "Opens a model that `shagreen quality fit` has fitted to pairs of signals that people have rated (.json). The settings keep it.";
+pub const BUILT_IN: &str = "Built-in";
+/// Accessible name of the button that returns to the built-in model.
+pub const BUILT_IN_NAME: &str = "Use the built-in model of d'";
+pub const BUILT_IN_HELP: &str = "Returns to the built-in model, with published weights";
+pub const OPEN_MODEL_TITLE: &str = "Open a model of d'";
+/// Kind of file in the dialog of the system.
+pub const OPEN_MODEL_KIND: &str = "Models of d'";
+pub const OPEN_MODEL_HINT: &str = "Path of a model (.json) that `shagreen quality fit` wrote…";
+
+/// Name of an opened model, and how it was fitted.
+pub fn origin(name: &str, origin: &str) -> String {
+    format!("{name}: {origin}")
 }
 
 /// Letter of a slot and the name of its signal.
@@ -70,7 +94,7 @@ pub fn meaning(d_prime: f64, relation: Relation) -> &'static str {
     }
 }
 
-pub const D_PRIME_HELP: &str = "Predicted discriminability of A and B: d' = z(H) - z(F), in standard deviations, with the hit rate H and the false-alarm rate F of the yes-no question \"different?\". At d' = 1, an unbiased observer answers it correctly with probability Φ(d'/2) = 69 %. A model with published weights predicts d'; no one has rated these signals. It applies to a signal and a processed version of it. The order of d' values is more reliable than their size.";
+pub const D_PRIME_HELP: &str = "Predicted discriminability of A and B: d' = z(H) - z(F), in standard deviations, with the hit rate H and the false-alarm rate F of the yes-no question \"different?\". At d' = 1, an unbiased observer answers it correctly with probability Φ(d'/2) = 69 %. The model beside the tabs predicts d'; no one has rated these signals. It applies to a signal and a processed version of it. The order of d' values is more reliable than their size.";
 
 /// Duration and signal-to-noise ratio of the comparison.
 pub fn compared(snr_db: f64, seconds: f64) -> String {

@@ -1,7 +1,7 @@
 //! Export of textures and signals for other programs.
 
 pub const EXPORT: &str = "Export…";
-pub const EXPORT_HELP: &str = "Writes the audible texture, or all authored ones, for other programs: as WAV signals, or as texture models. The sheet lists what a format cannot store.";
+pub const EXPORT_HELP: &str = "Writes the audible texture, or all authored ones, for other programs: as the signal of a stroke, or as a texture model. The sheet lists what a format cannot store.";
 pub const TITLE: &str = "Export textures";
 pub const EXPORT_NOW: &str = "Export";
 /// Accessible name of the path field.
@@ -19,7 +19,7 @@ pub const NEW_FOLDER: &str = " The folder is created.";
 /// What a file lacks of an authored texture whose path does not play.
 pub const PATH_LOST: &str = "the path: the file has the texture at the point. To export the path as a WAV signal, select \"Play path\" above the space first";
 /// What several files lack if each is scaled to its own peak.
-pub const LEVELS_LOST: &str = "the differences in level between the textures: each file has its own peak at −1 dB. Select \"One scale for all\" to keep them";
+pub const LEVELS_LOST: &str = "the differences in level between the textures: each file has its own full scale. Select \"One scale for all\" to keep them";
 
 /// What the files lack of authored textures with these names, which have paths.
 pub fn paths_lost(names: &[&str]) -> String {

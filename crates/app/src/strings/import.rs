@@ -1,6 +1,6 @@
 //! Import sheet, and saving a library.
 
-use shagreen_core::recording::fit::{FitReport, Segment, TapFit};
+use shagreen_core::recording::fit::{FitReport, HeldOut, Segment, TapFit};
 use shagreen_core::units::Contact;
 use shagreen_formats::recording::Ask;
 
@@ -9,9 +9,9 @@ pub const TITLE: &str = "Import";
 /// Kind of file in the dialog of the system.
 pub const KIND: &str = "Recordings, models, libraries and pictures";
 pub const DROP_HERE: &str = "Drop recordings, photos, models or a library";
-pub const DROP_KINDS: &str = "Recordings (CSV, TXT, TSV, WAV), photos (JPEG, PNG, WebP, BMP, TIFF), HaTT models (XML), libraries (JSON), a column map (map.toml), folders";
+pub const DROP_KINDS: &str = "Recordings (CSV, TXT, TSV, WAV), haptic clips (.haptic, AHAP, Macaron), photos (JPEG, PNG, WebP, BMP, TIFF), HaTT models (XML), libraries (JSON), a column map (map.toml), folders";
 /// Files that can be imported, below the reason why one cannot be.
-pub const ACCEPTED: &str = "Files that can be imported: recordings (CSV, TXT, TSV, WAV), photos (JPEG, PNG, WebP, BMP, TIFF), HaTT models (XML), Shagreen libraries (JSON), a column map (map.toml), and folders of these.";
+pub const ACCEPTED: &str = "Files that can be imported: recordings (CSV, TXT, TSV, WAV), haptic clips (.haptic, AHAP, Macaron), photos (JPEG, PNG, WebP, BMP, TIFF), HaTT models (XML), Shagreen libraries (JSON), a column map (map.toml), and folders of these.";
 pub const IS_PROJECT: &str = "this is a project of Shagreen. Open it with File, Open…; to bring one of its authored textures here, copy it there and paste it here";
 pub const NOTHING_IN_FOLDER: &str = "this folder has no file that can be imported; folders inside it are not searched. Choose one of these, or another folder";
 pub const PATHS: &str = "Paths of files or folders";
@@ -84,7 +84,7 @@ pub const RATE: &str = "Sample rate";
 pub const RATE_HELP: &str =
     "Sample rate of the model, in Hz. Automatic: the lowest rate that keeps the bandwidth of the recording.";
 pub const ORDER: &str = "Order";
-pub const ORDER_HELP: &str = "Order of the autoregressive model, the same at every speed and force. Automatic: by the Bayesian information criterion (BIC).";
+pub const ORDER_HELP: &str = "Order of the autoregressive model, the same at every speed and force. Automatic: the lowest order that predicts held-out segments about as well as the best one.";
 pub const INTERPOLATION: &str = "Interpolation";
 pub const INTERPOLATION_HELP: &str =
     "Interpolation of the model between the measured pairs of speed and force.";
@@ -105,6 +105,8 @@ pub const TAP: &str = "tap transient";
 pub const TAP_HELP: &str = "Transient when the tip hits the surface: a decaying oscillation, stated for a landing at 100 mm/s. Recordings do not state how fast the tip landed, so this speed is assumed for them.";
 pub const NO_TAP: &str = "none found";
 pub const HELD_OUT: &str = "held-out segments: the compared model was fitted without them";
+pub const HELD_OUT_BLOCKS: &str =
+    "few segments: held out in blocks of a quarter of a second, while the rest of each stroke was fitted";
 pub const NOT_HELD_OUT: &str =
     "not held-out: too few segments, so the model is compared with the data that it was fitted to";
 pub const WARNINGS: &str = "Warnings";
@@ -177,7 +179,11 @@ pub fn fit_in_words(report: &FitReport) -> String {
         100.0 * report.coverage,
         report.gfc_median(),
         report.level_error_db_median(),
-        if report.held_out { "held-out" } else { "not held-out" }
+        match report.held_out {
+            HeldOut::Segments => "held-out",
+            HeldOut::Blocks => "held-out in blocks of the same strokes",
+            HeldOut::Nothing => "not held-out",
+        }
     )
 }
 

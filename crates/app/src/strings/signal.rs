@@ -23,7 +23,7 @@ pub const SAMPLES: &str = "Samples";
 /// Option for several files.
 pub const ONE_SCALE: &str = "One scale for all";
 /// Explanation of the option.
-pub const ONE_SCALE_HELP: &str = "Divides all signals by the same acceleration: the strongest peak is at −1 dB, and weaker textures stay weaker. Otherwise each file has its own peak at −1 dB.";
+pub const ONE_SCALE_HELP: &str = "Divides all signals by the same acceleration, so that weaker textures stay weaker. Otherwise each file has its own full scale.";
 /// When the option is not available.
 pub const NO_ONE_SCALE: &str = "For an export of all authored textures whose level is \"Peak at −1 dB\"";
 /// Label of the level.
@@ -71,20 +71,28 @@ pub fn level_help(level: Level) -> &'static str {
     }
 }
 
-/// What will be saved: a signal of `secs` at a steady contact, or along the recorded stroke.
+/// What is saved: a signal of `secs` at a steady contact, or along the recorded stroke.
 pub fn to_save(secs: f64, contact: Option<(f64, f64)>) -> String {
     let motion = match contact {
         Some((mm_per_s, force_n)) => format!("at {mm_per_s:.0} mm/s and {force_n:.2} N"),
         None => "along the recorded stroke".to_owned(),
     };
-    format!(
-        "Saves {secs:.2} s {motion}. A .json file with the unit, the motion and the textures is saved beside it."
-    )
+    format!("{secs:.2} s {motion}")
 }
 
-/// What will be saved: a signal of the Signals workspace.
+/// What is saved: a signal of the Signals workspace.
 pub fn bench_to_save(name: &str, secs: f64) -> String {
-    format!("Saves {name}, {secs:.2} s. A .json file with the unit is saved beside it.")
+    format!("{name}, {secs:.2} s")
+}
+
+/// What will be saved, in which format. Samples get a file that describes them.
+pub fn saved_as(what: &str, format: &str, is_samples: bool) -> String {
+    let beside = if is_samples {
+        " A .json file with the unit, the motion and the textures is saved beside it."
+    } else {
+        " Full scale is the highest amplitude of the signal."
+    };
+    format!("Saves {what} as {format}.{beside}")
 }
 
 #[cfg(test)]

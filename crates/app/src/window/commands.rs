@@ -29,6 +29,7 @@ use crate::sheets::devices::DevicesSheet;
 use crate::sheets::guide_sheet::GuideSheet;
 use crate::sheets::networks_sheet::NetworksSheet;
 use crate::sheets::palette::PaletteSheet;
+use crate::sheets::papers_sheet::PapersSheet;
 use crate::sheets::save::SaveSheet;
 use crate::state::compare::CompareCommand;
 use crate::state::edit::{Edit, name_of_snapshot};
@@ -250,6 +251,15 @@ impl Window {
         }
     }
 
+    /// Starts or stops the automatic stroke; on a path that is shown, it begins with playing the path.
+    fn toggle_hand(&mut self) {
+        let starts = !self.session.hand_is_running();
+        if starts && self.draws_path() {
+            self.session.play_path(true);
+        }
+        self.session.set_hand(starts.then_some(self.pages.stage.pad.input()));
+    }
+
     /// Executes a command.
     pub fn carry_out(&mut self, command: Command, ctx: &egui::Context) {
         match command {
@@ -266,6 +276,7 @@ impl Window {
             Command::OpenShortcuts => self.sheet = Sheet::Shortcuts,
             Command::OpenPalette => self.sheet = Sheet::Palette(PaletteSheet::default()),
             Command::OpenGuide => self.sheet = Sheet::Guide(Box::new(GuideSheet::new())),
+            Command::OpenPapers => self.sheet = Sheet::Papers(Box::new(PapersSheet::new())),
             Command::OpenAbout => self.sheet = Sheet::About(AboutSheet::new(&self.files.keeping)),
             Command::BeginTour => {
                 self.pages.workspace = Workspace::Author;
@@ -290,13 +301,7 @@ impl Window {
                 clear_notice(ctx);
                 self.history.redo(&mut self.project);
             }
-            Command::ToggleHand => {
-                let starts = !self.session.hand_is_running();
-                if starts && self.draws_path() {
-                    self.session.play_path(true);
-                }
-                self.session.set_hand(starts.then_some(self.pages.stage.pad.input()));
-            }
+            Command::ToggleHand => self.toggle_hand(),
             Command::TogglePathTool => self.pages.author.canvas.tool.toggle(),
             Command::PlayPath(is_played) => self.session.play_path(is_played),
             Command::KeepPath => self.keep_path(ctx),

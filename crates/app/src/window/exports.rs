@@ -2,7 +2,7 @@
 
 use shagreen_core::space::texture_path::UserPath;
 use shagreen_formats::library::id_from_name;
-use shagreen_studio::export::{WAV, listed};
+use shagreen_studio::export::{FormatInfo, listed, signal_format};
 
 use super::Window;
 use crate::panel::Panel;
@@ -19,7 +19,9 @@ impl Window {
         let contact = self.pages.stage.pad.contact(&self.session);
         let signal = self.session.signal(&self.project, compared.as_deref(), contact);
         let entry = self.session.texture_entry(&self.project, compared.as_deref());
-        let problem_of = |format| if format == WAV { signal.as_ref().err() } else { entry.as_ref().err() };
+        let is_of_signals = |format: FormatInfo| signal_format(format.id).is_some();
+        let problem_of =
+            |format| if is_of_signals(format) { signal.as_ref().err() } else { entry.as_ref().err() };
         let possible = std::iter::once(format).chain(listed()).find(|format| problem_of(*format).is_none());
         let Some(possible) = possible else {
             if let Some(reason) = problem_of(format) {

@@ -40,6 +40,15 @@ impl Window {
             }
             SignalsCommand::MakeB(how) => self.pages.signals.make_b(how, ctx),
             SignalsCommand::Keep(slot) => self.keep_relief(slot, ctx),
+            SignalsCommand::AskWhichModel => {
+                self.sheet = Sheet::Open(OpenSheet::of_models(&self.usual_folder(), ctx));
+            }
+            SignalsCommand::ReadModel(path) => {
+                // The page shows the result.
+                self.sheet = Sheet::Closed;
+                self.pages.signals.open_model(path, ctx);
+            }
+            SignalsCommand::UseBuiltInModel => self.pages.signals.use_built_in_model(),
             SignalsCommand::NoteExported(signal) => self.pages.signals.note_exported(signal),
         }
     }

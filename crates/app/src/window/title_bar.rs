@@ -121,6 +121,7 @@ fn help_menu(ui: &mut Ui) -> Option<Command> {
             (strings::help::PALETTE, Command::OpenPalette),
             (strings::help::TOUR, Command::BeginTour),
             (strings::help::SHORTCUTS, Command::OpenShortcuts),
+            (strings::papers::MENU, Command::OpenPapers),
             (strings::about::ABOUT, Command::OpenAbout),
         ] {
             if ui.button(name).clicked() {

@@ -3,9 +3,12 @@
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, Shape};
 use egui_kittest::kittest::Queryable as _;
+use shagreen_app::Begin;
+use shagreen_app::session::OutputChoice;
 use shagreen_app::state::rig::{Mounted, Rig};
 use shagreen_app::strings::{clipboard, devices as strings};
 use shagreen_core::actuator::Actuator;
+use shagreen_device::haptic_pen::system::SIMULATED_ID;
 use shagreen_formats::actuator_toml::{built_in_actuators, write_actuator};
 use shagreen_studio::project::new_project;
 
@@ -124,6 +127,37 @@ fn buffers_and_channels_open_the_output_again() {
     });
     choose(&mut harness, strings::CHANNELS, &strings::channel(1));
     wait(&mut harness, "the channel is taken", |h| rig(h).channel == Some(1));
+}
+
+#[test]
+fn a_controller_names_its_channels_and_is_driven_before_it_is_calibrated() {
+    let mut harness = opened();
+    choose(&mut harness, strings::ACTUATOR, "DualSense controller (USB)");
+    wait(&mut harness, "it is taken over", |h| rig(h).actuator().is_some());
+    wait(&mut harness, "its channels are named", |h| says(h, "left grip, right grip"));
+    assert!(says(&harness, strings::PROPORTIONAL));
+    assert!(rig(&harness).drive().unwrap().inverse.is_none());
+}
+
+#[test]
+fn a_pen_is_chosen_automatically_and_its_backend_is_named() {
+    let harness = opened();
+    assert_eq!(rig(&harness).pen.as_deref(), Some("auto"));
+    let session = window(&harness).session();
+    match session.pen_facts() {
+        Some(facts) => assert!(says(&harness, &facts.name)),
+        None => assert!(says(&harness, strings::WINDOW_POINTER)),
+    }
+}
+
+#[test]
+fn a_haptic_pen_says_that_it_approximates() {
+    let output = OutputChoice::Id(SIMULATED_ID.to_owned());
+    let mut harness = author_of(Begin { output, ..begin(new_project()) }, [1280.0, 720.0]);
+    click(&mut harness, strings::OPEN);
+    wait(&mut harness, "the sheet opens", |h| says(h, strings::TITLE));
+    assert!(says(&harness, strings::HAPTIC_PEN_SILENT));
+    assert!(window(&harness).session().haptic_reading().is_some());
 }
 
 #[test]

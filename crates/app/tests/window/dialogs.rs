@@ -57,6 +57,7 @@ fn every_sheet_is_closed_at_the_same_place() {
         ("gallery", help::CLOSE, Command::File(FileCommand::OpenGallery)),
         ("shortcuts", help::CLOSE, Command::OpenShortcuts),
         ("guide", help::CLOSE, Command::OpenGuide),
+        ("papers sheet", help::CLOSE, Command::OpenPapers),
         ("about", help::CLOSE, Command::OpenAbout),
         ("texture sheet", help::CLOSE, Command::OpenTexture(first)),
         ("relief sheet", import::CANCEL, Command::Relief(ReliefCommand::Begin(None, None))),

@@ -15,7 +15,7 @@ use shagreen_core::space::texture_path::UserPath;
 use shagreen_core::texture::blend::Mode;
 use shagreen_core::texture::shape::ShapeControl;
 use shagreen_formats::wav::SidecarV1;
-use shagreen_studio::export::{FORMATS, WAV};
+use shagreen_studio::export::{FORMATS, SIGNAL_FORMATS, WAV};
 
 use crate::projects::{menu, rename};
 use crate::support::{
@@ -61,14 +61,15 @@ fn all_authored_textures_are_exported_at_once() {
     click(&mut harness, import::CANCEL);
     harness.run_steps(3);
 
-    // The same in every other format.
-    let terms = export::lost("tags, description, license and origin");
-    for format in FORMATS {
+    // The same in every other format; without heights, there are no maps of them.
+    // Something that each of them loses.
+    let lost = ["tags, description, license and origin", "the randomness", "the editable model"];
+    for format in FORMATS.into_iter().filter(|format| format.id() != "maps") {
         menu(&mut harness, export::EXPORT);
         harness.run_steps(4);
         click(&mut harness, format.name());
         // What the format cannot store is listed above the choice, and moves it.
-        wait(&mut harness, "it is checked", |h| says(h, &terms));
+        wait(&mut harness, "it is checked", |h| lost.iter().any(|lost| says(h, lost)));
         harness.run_steps(3);
         click(&mut harness, &export::all_of(2));
         enter_path(&mut harness, export::PATH, &path);
@@ -144,6 +145,49 @@ fn what_is_heard_is_exported_as_a_signal() {
     enter_path(&mut harness, export::PATH, &other);
     wait(&mut harness, "it refuses", |h| says(h, &refused(&beside)));
     assert!(!other.exists());
+}
+
+/// Every other format of signals names what it lacks before it is written.
+#[test]
+fn what_is_heard_is_exported_as_envelopes() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    for format in SIGNAL_FORMATS.into_iter().filter(|format| !format.stores_samples()) {
+        menu(&mut harness, export::EXPORT);
+        harness.run_steps(4);
+        click(&mut harness, format.name());
+        wait(&mut harness, "it is checked", |h| says(h, "the fine structure of the vibration"));
+        assert!(harness.query_by_role_and_label(Role::ComboBox, signal::SAMPLES).is_none());
+        let field = harness.get_by_role_and_label(Role::TextInput, export::PATH);
+        let shown = field.accesskit_node().value().unwrap();
+        assert!(shown.ends_with(&format!(".{}", format.ending())), "{shown}");
+        harness.run_steps(3);
+        let path = folder.path().join("oak").with_extension(format.ending());
+        enter_path(&mut harness, export::PATH, &path);
+        let saved = import::saved(&path.display().to_string());
+        wait(&mut harness, "it is exported", |h| h.query_by_label(&saved).is_some());
+        assert!(format.may_replace(&path, &std::fs::read(&path).unwrap()), "{}", format.id());
+        click(&mut harness, import::CLOSE);
+        harness.run_steps(3);
+    }
+}
+
+/// A format that needs heights says so before the export, and nothing is written.
+#[test]
+fn a_format_that_cannot_hold_the_texture_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    menu(&mut harness, export::EXPORT);
+    harness.run_steps(4);
+    let maps = FORMATS.into_iter().find(|format| format.id() == "maps").unwrap();
+    click(&mut harness, maps.name());
+    wait(&mut harness, "it is checked", |h| says(h, "the texture has no height map"));
+    enter_path(&mut harness, export::PATH, &folder.path().join("oak.gltf"));
+    harness.run_steps(20);
+    assert!(says(&harness, "the texture has no height map"));
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
 #[test]

@@ -3,23 +3,32 @@
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, pos2};
 use egui_kittest::kittest::Queryable as _;
+use shagreen_app::Begin;
 use shagreen_app::choices::signals::Slot;
 use shagreen_app::choices::signals::Tool;
 use shagreen_app::choices::signals::View;
 use shagreen_app::state::bench_signal::BenchSignal;
+use shagreen_app::state::files::StoragePaths;
 use shagreen_app::strings::{self, differences, signals};
 use shagreen_app::workspace::Workspace;
-use shagreen_core::signals::quality::Relation;
+use shagreen_core::signals::quality::{QualityModel, Relation, Term};
+use shagreen_formats::quality_model::{built_in_quality_model, write_quality_model};
+use shagreen_formats::settings::read_settings;
 use shagreen_formats::wav::{SidecarV1, write_wav};
+use shagreen_studio::project::new_project;
 
 use crate::support::{
-    Author, author, choose, click, drag, drop_files, enter_path, says, unnamed_controls, wait,
-    wait_for_field, window,
+    Author, author, author_of, begin, choose, click, drag, drop_files, enter_path, says, unnamed_controls,
+    wait, wait_for_field, window,
 };
 
 /// Window with the audible texture as signal A.
 fn with_heard() -> Author {
-    let mut harness = author();
+    heard_in(author())
+}
+
+/// The window, with the audible texture as signal A.
+fn heard_in(mut harness: Author) -> Author {
     harness.key_press_modifiers(Modifiers::COMMAND, Key::Num3);
     harness.run_steps(2);
     assert_eq!(window(&harness).workspace(), Workspace::Signals);
@@ -86,6 +95,64 @@ fn what_is_heard_goes_through_the_codec_and_both_are_compared() {
         assert!(says(&harness, &differences::named(slot, &signal(&harness, slot).name)), "{slot:?} in full");
     }
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+}
+
+/// Shows the differences of A and its coded version; returns the predicted d'.
+fn predicted(harness: &mut Author) -> f64 {
+    click(harness, signals::CODEC);
+    wait_for(harness, Slot::B);
+    click(harness, signals::view(View::Differences));
+    wait_for_prediction(harness)
+}
+
+fn wait_for_prediction(harness: &mut Author) -> f64 {
+    wait(harness, "both are compared", |h| window(h).signals().compared().is_some());
+    harness.run_steps(2);
+    window(harness).signals().compared().unwrap().unwrap().d_prime
+}
+
+/// A model with twice the weights of the built-in one predicts twice its d'.
+#[test]
+fn a_model_is_opened_kept_in_the_settings_and_never_replaced_by_a_foreign_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let [settings, lab, other] =
+        ["settings.json", "lab.json", "other.json"].map(|name| folder.path().join(name));
+    std::fs::write(&settings, r#"{"has_seen_tour": true}"#).unwrap();
+    std::fs::write(&other, r#"{"format": "shagreen-library", "version": "1.0"}"#).unwrap();
+    let mut file = built_in_quality_model().unwrap();
+    let terms = file.model.terms().iter().map(|term| Term { weight: 2.0 * term.weight, ..*term });
+    file.model = QualityModel::of_terms(terms.collect()).unwrap();
+    std::fs::write(&lab, write_quality_model(&file)).unwrap();
+    let keeping = StoragePaths { settings: Some(settings.clone()), ..StoragePaths::default() };
+    let opened = || author_of(Begin { keeping: keeping.clone(), ..begin(new_project()) }, [1280.0, 720.0]);
+    let kept = || read_settings(&std::fs::read(&settings).unwrap()).0.quality_model;
+
+    let mut harness = heard_in(opened());
+    let built_in = predicted(&mut harness);
+    click(&mut harness, differences::OPEN_MODEL_NAME);
+    enter_path(&mut harness, strings::document::OPEN_PATH, &lab);
+    wait(&mut harness, "the model is there", |h| window(h).signals().model().is_some());
+    let by_lab = wait_for_prediction(&mut harness);
+    assert!((by_lab / built_in - 2.0).abs() < 1e-9, "{by_lab} {built_in}");
+    assert!(says(&harness, "lab.json: published weights"));
+    assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
+    wait(&mut harness, "the settings keep it", |_| kept().as_ref() == Some(&lab));
+
+    click(&mut harness, differences::OPEN_MODEL_NAME);
+    enter_path(&mut harness, strings::document::OPEN_PATH, &other);
+    wait(&mut harness, "it is refused", |h| window(h).signals().model_failure().is_some());
+    harness.run_steps(2);
+    assert!(says(&harness, "this is not a quality model") && says(&harness, "lab.json"));
+    assert_eq!(window(&harness).signals().model().map(|model| model.name.as_str()), Some("lab.json"));
+    drop(harness);
+
+    let mut harness = heard_in(opened());
+    assert!(window(&harness).signals().model().is_none(), "it is read when it is needed");
+    predicted(&mut harness);
+    assert_eq!(window(&harness).signals().model().map(|model| model.name.as_str()), Some("lab.json"));
+    click(&mut harness, differences::BUILT_IN_NAME);
+    assert!(window(&harness).signals().model().is_none());
+    wait(&mut harness, "the settings forget it", |_| kept().is_none());
 }
 
 #[test]

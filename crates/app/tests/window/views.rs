@@ -279,6 +279,7 @@ fn sheets(harness: &mut Author, look: &mut Look<'_>) {
         ("shortcuts", Command::OpenShortcuts),
         ("palette", Command::OpenPalette),
         ("guide", Command::OpenGuide),
+        ("papers", Command::OpenPapers),
         ("about", Command::OpenAbout),
         ("texture", Command::OpenTexture(first)),
         ("relief", Command::Relief(ReliefCommand::Begin(None, None))),

@@ -219,6 +219,7 @@ pub fn fitted_actuator(base: Option<Actuator>, fit: &Fit, load: Option<Kilograms
         lowest: USUAL_LOWEST,
         calibrated: None,
         friction: None,
+        channels: Vec::new(),
     });
     let physical = Physical {
         force_factor_n_per_a: None,

@@ -18,6 +18,7 @@ pub use crate::actuator::voice_coil::inverse::{inverse, inverse_gain_bound};
 pub use crate::actuator::voice_coil::response::Response;
 
 use crate::actuator::friction_display::{FRICTION_CARRIERS_HZ, FRICTION_CHANNELS, FrictionDisplay};
+use crate::actuator::named_channel::{NamedChannel, problem_of_channels};
 use crate::units::{Hertz, Kilograms, Volts};
 
 /// Default lowest frequency of the inverse filter.
@@ -51,6 +52,8 @@ pub struct Actuator {
     pub calibrated: Option<Calibrated>,
     /// Display that renders friction beside the coil, if there is one.
     pub friction: Option<FrictionDisplay>,
+    /// Channels of a device with several actuators; empty for a single actuator on any channel.
+    pub channels: Vec<NamedChannel>,
 }
 
 /// Measured response of an actuator, and the load during the measurement.
@@ -123,6 +126,12 @@ pub enum ActuatorError {
         /// Valid values.
         needs: &'static str,
     },
+    /// The named channels contradict each other.
+    #[error("{problem}")]
+    Channels {
+        /// Contradiction, with numbers and names.
+        problem: String,
+    },
     /// The actuator has no response.
     #[error("the response of {id} is unknown; calibrate it")]
     NoResponse {
@@ -186,6 +195,12 @@ impl Default for Limits {
 }
 
 impl Actuator {
+    /// Whether the actuator is driven in proportion to the acceleration until its response is known: its device has
+    /// amplifiers of its own, whose limits nobody can exceed by a digital signal.
+    pub fn is_proportional(&self) -> bool {
+        self.measured.is_none() && !self.channels.is_empty()
+    }
+
     /// Response on the load of the measurement.
     ///
     /// # Errors
@@ -304,6 +319,10 @@ pub fn validate(actuator: &Actuator) -> Result<(), ActuatorError> {
             let (what, needs) = ("the channel of the friction display", "1 to 64");
             return Err(ActuatorError::Number { what, value: f64::from(channel), needs });
         }
+    }
+    let friction = actuator.friction.map(|display| display.channel);
+    if let Some(problem) = problem_of_channels(&actuator.channels, friction) {
+        return Err(ActuatorError::Channels { problem });
     }
     let errors = calibrated.map(|c| {
         [

@@ -121,20 +121,29 @@ pub fn order_by_bic(fit: &ArFit, n_samples: usize, range: std::ops::RangeInclusi
 pub fn power_gain(ar: &[f64]) -> f64 {
     let mut a = ar.to_vec();
     let mut gain = 1.0;
-    while let Some(k) = a.pop() {
-        let left = 1.0 - k * k;
-        if left <= 0.0 || left.is_nan() {
-            return f64::INFINITY;
-        }
+    while !a.is_empty() {
+        let Some(left) = step_down(&mut a) else { return f64::INFINITY };
         gain /= left;
-        // In place, from both ends: each pair depends only on itself.
-        let n = a.len();
-        for j in 0..n.div_ceil(2) {
-            let (x, y) = (a[j], a[n - 1 - j]);
-            (a[j], a[n - 1 - j]) = ((x - k * y) / left, (y - k * x) / left);
-        }
     }
     gain
+}
+
+/// Levinson-Durbin update in reverse: the predictor of the next lower order, which Burg's method and the Yule-Walker
+/// equations would have given. Returns `1 - k²` for the reflection coefficient `k` that is removed, or `None` if the
+/// predictor has order 0 or is unstable.
+pub(crate) fn step_down(ar: &mut Vec<f64>) -> Option<f64> {
+    let k = ar.pop()?;
+    let left = 1.0 - k * k;
+    if left <= 0.0 || left.is_nan() {
+        return None;
+    }
+    // In place, from both ends: each pair depends only on itself.
+    let n = ar.len();
+    for j in 0..n.div_ceil(2) {
+        let (x, y) = (ar[j], ar[n - 1 - j]);
+        (ar[j], ar[n - 1 - j]) = ((x - k * y) / left, (y - k * x) / left);
+    }
+    Some(left)
 }
 
 /// Transfer function `1 / A(e^{jω})` at each frequency, as (real, imaginary).

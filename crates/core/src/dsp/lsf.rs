@@ -12,6 +12,8 @@ use std::sync::LazyLock;
 
 pub(crate) use crate::dsp::lsf::quick::FastLsf;
 
+use shagreen_synth::lsf::{ASCENDING_ORDER, scattered};
+
 /// First grid of the root search, and its cosines.
 const FIRST_GRID: usize = 128;
 static FIRST_COSINES: LazyLock<[f64; FIRST_GRID + 1]> =
@@ -127,7 +129,7 @@ fn with_roots(lsf: &[f64], first: usize) -> Vec<f64> {
     let mut poly = vec![0.0; lsf.len() + 2];
     poly[0] = 1.0;
     let mut degree = 0;
-    for w in lsf.iter().skip(first).step_by(2) {
+    let mut multiply = |w: f64| {
         // Multiplication by 1 - 2 cos(w) z + z², in place from the highest coefficient down.
         let middle = -2.0 * w.cos();
         degree += 2;
@@ -135,6 +137,12 @@ fn with_roots(lsf: &[f64], first: usize) -> Vec<f64> {
             poly[i] += poly[i - 2] + middle * poly[i - 1];
         }
         poly[1] += middle;
+    };
+    let own: Vec<f64> = lsf.iter().skip(first).step_by(2).copied().collect();
+    if lsf.len() <= ASCENDING_ORDER {
+        own.into_iter().for_each(multiply);
+    } else {
+        scattered(own.len()).for_each(|index| multiply(own[index]));
     }
     poly
 }
@@ -238,6 +246,25 @@ mod tests {
             }
             for (a, b) in ar_from_lsf(&lsf_from_ar(&ar).unwrap()).iter().zip(&ar) {
                 assert!((a - b).abs() <= golden, "order {order}: got {a}, expected {b}");
+            }
+        }
+    }
+
+    /// Spectra of strokes are steep, so that all low frequencies lie close together.
+    #[test]
+    fn high_orders_round_trip_too() {
+        let ar =
+            from_resonances(Hertz(1000.0), &[(Hertz(25.0), 0.98), (Hertz(60.0), 0.97), (Hertz(180.0), 0.95)]);
+        let mut x = lcg_noise(20_000, 11);
+        for i in ar.len()..x.len() {
+            x[i] -= (1..=ar.len()).map(|k| ar[k - 1] * x[i - k]).sum::<f64>();
+        }
+        for order in [33, 47, 64, 80] {
+            let fitted = burg(&x, order).unwrap().ar;
+            let lsf = lsf_from_ar(&fitted).unwrap();
+            for (a, b) in ar_from_lsf(&lsf).iter().zip(&fitted) {
+                // Measured: below 1e-11. In ascending order of the frequencies, 0.06 at order 64.
+                assert!((a - b).abs() < 1e-8, "order {order}: got {a}, expected {b}");
             }
         }
     }

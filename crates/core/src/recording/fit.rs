@@ -3,28 +3,31 @@
 pub mod directional;
 mod error;
 mod heldout;
+mod order;
 mod pieces;
 mod smear;
+mod split;
 mod strokes;
 mod surface;
 
 pub use crate::recording::fit::error::FitError;
-pub use crate::recording::fit::pieces::{MODEL_RATES_HZ, highest_order};
+pub use crate::recording::fit::pieces::MODEL_RATES_HZ;
 pub use crate::recording::fit::strokes::{Stroke, strokes, three_axis_strokes};
 
 use crate::dsp::spectrum::median;
 use crate::maths::triangulation::Triangulation;
 use crate::recording::Recording;
+use crate::recording::fit::order::{ORDERS, held_out_order};
+use crate::recording::fit::pieces::usual_order;
+use crate::recording::fit::split::Split;
+use crate::recording::fit::surface::Surface;
 use crate::recording::tap_transients::fit_tap_transients;
 use crate::texture::tap::Tap;
-use crate::texture::{Interpolation, TextureModel};
+use crate::texture::{Interpolation, MAX_ORDER, TextureModel};
 use crate::units::{Hertz, MetersPerSecond, Newtons};
 
 /// Cutoff of the high-pass filter before fitting; gravity and hand motion below it are not texture.
 pub const HIGH_PASS: Hertz = Hertz(10.0);
-
-/// Lowest model order that automatic selection may choose; fewer poles do not represent a real spectrum.
-const MIN_ORDER: usize = 10;
 
 /// Minimum share of the tap transients' energy that the fitted sinusoid must explain to be kept.
 const MIN_TAP_EXPLAINED: f64 = 0.5;
@@ -37,7 +40,9 @@ const THIN_COVERAGE: f64 = 0.1;
 pub struct FitOptions {
     /// Model rate; `None` selects it from the bandwidth of the recordings.
     pub rate: Option<Hertz>,
-    /// Predictor order; `None` selects it by the Bayesian information criterion (BIC).
+    /// Predictor order, up to [`MAX_ORDER`]; `None` selects the order that predicts held-out segments best, or about as
+    /// well with fewer coefficients. In recordings too short to hold anything out, the Bayesian information criterion
+    /// (BIC) selects it.
     pub order: Option<usize>,
     /// Interpolation of the model over speed and force.
     pub interpolation: Interpolation,
@@ -67,11 +72,22 @@ pub struct FitReport {
     pub frequencies: Vec<Hertz>,
     /// Fitted tap transient, if any.
     pub tap: Option<TapFit>,
-    /// Whether each [`Comparison`] uses a model fitted without the compared segments. If there are too few segments, it
-    /// uses the final model, which was fitted to them.
-    pub held_out: bool,
+    /// What the models of the [`Comparison`]s were not fitted to.
+    pub held_out: HeldOut,
     /// Sentences on what was left out of the fit, and why.
     pub notes: Vec<String>,
+}
+
+/// Part of the recordings that is left out of the fit of a model, to compare the model with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HeldOut {
+    /// Segments, a tenth of them at a time (tenfold cross-validation).
+    Segments,
+    /// One block of about a quarter of a second at a time, because there are few segments. The blocks beside it in the
+    /// same stroke remain, so that such a comparison says little about other strokes.
+    Blocks,
+    /// Nothing, because there are too few blocks: the compared model is the final one.
+    Nothing,
 }
 
 /// Segment of a recording with nearly constant speed and force.
@@ -99,8 +115,7 @@ pub struct Segment {
 /// and force, up to five seconds in total, are pooled. Each measured spectrum is divided by the power law of the
 /// levels, and averaged. The model's spectra for windows of the same length are averaged in the same way.
 ///
-/// If [`FitReport::held_out`] is set, the model was fitted without the compared segment (tenfold cross-validation).
-/// Each fold consists of blocks of neighboring segments.
+/// [`FitReport::held_out`] says what the model was not fitted to. Each fold of segments consists of neighboring ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// Measured power spectral density (Welch) in (m/s²)²/Hz, at [`FitReport::frequencies`].
@@ -126,9 +141,16 @@ pub struct TapFit {
 }
 
 impl FitOptions {
-    /// Defaults: rate by bandwidth, order by BIC, barycentric interpolation.
+    /// Defaults: rate by bandwidth, order by the prediction of held-out segments, barycentric interpolation.
     pub fn usual() -> Self {
         Self { rate: None, order: None, interpolation: Interpolation::Barycentric }
+    }
+}
+
+impl HeldOut {
+    /// Whether anything is left out.
+    pub fn is_any(self) -> bool {
+        self != Self::Nothing
     }
 }
 
@@ -157,12 +179,14 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
         return Err(FitError::Empty);
     }
     let pieces::Cut { pieces, rate, mut notes } = pieces::cut(recordings, options.rate)?;
-    let surface = surface::Surface::new(pieces.iter().collect());
-    let order = order_of(&surface, rate, options.order)?;
-    let model = surface.model(rate, order, options.interpolation)?;
+    let surface = Surface::new(pieces.iter().collect());
+    let split = Split::new(&pieces, rate);
+    let (order, (model, compared)) = first_playable(&orders(&split, options.order)?, |order| {
+        let model = surface.model(rate, order, options.interpolation)?;
+        Ok((model, heldout::compare(&split, order, options.interpolation)?))
+    })?;
     let tap = landing(recordings, &mut notes);
     let model = model.with_tap(tap.map(|t| t.tap));
-    let compared = heldout::compare(&pieces, rate, order, options.interpolation)?;
     let segments = pieces.iter().zip(compared.comparisons).map(|(piece, comparison)| Segment {
         recording: piece.recording,
         start_secs: piece.start_secs,
@@ -180,24 +204,47 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
         coverage,
         frequencies: compared.frequencies,
         tap,
-        held_out: compared.held_out,
+        held_out: split.held_out,
         notes,
     };
     Ok(Fitted { model, report })
 }
 
-/// Predictor order that was asked for, or the one that the Bayesian information criterion prefers.
-fn order_of(surface: &surface::Surface<'_>, rate: Hertz, asked: Option<usize>) -> Result<usize, FitError> {
-    let highest = highest_order(rate);
-    match asked {
-        Some(order) if order == 0 || order > highest => Err(FitError::OrderAsked { order, highest }),
-        Some(order) => Ok(order),
-        None => surface.order(MIN_ORDER..=highest),
+/// Predictor orders to try: the one that was asked for, or the one that suits the segments and all lower ones.
+fn orders(split: &Split<'_>, asked: Option<usize>) -> Result<Vec<usize>, FitError> {
+    let chosen = match asked {
+        Some(order) if order == 0 || order > MAX_ORDER => {
+            return Err(FitError::OrderAsked { order, highest: MAX_ORDER });
+        }
+        Some(order) => return Ok(vec![order]),
+        None if split.held_out.is_any() => held_out_order(split)?,
+        None => {
+            let surface = Surface::new(split.parts.iter().collect());
+            surface.order(ORDERS[0]..=usual_order(split.rate))?
+        }
+    };
+    let lower = ORDERS.into_iter().rev().filter(|order| *order < chosen);
+    Ok(std::iter::once(chosen).chain(lower).collect())
+}
+
+/// Result of the first of these orders whose filters the renderer can play. The peaks of a high order can be so sharp
+/// that the filter is not stable in single precision.
+fn first_playable<T>(
+    orders: &[usize],
+    at: impl Fn(usize) -> Result<T, FitError>,
+) -> Result<(usize, T), FitError> {
+    let mut last = None;
+    for order in orders {
+        match at(*order) {
+            Err(error) if error.is_too_sharp() => last = Some(error),
+            result => return Ok((*order, result?)),
+        }
     }
+    Err(last.unwrap_or(FitError::Empty))
 }
 
 /// Share of the speed-force plane that the segments cover, with a note if it is small.
-fn coverage_of(surface: &surface::Surface<'_>, notes: &mut Vec<String>) -> f64 {
+fn coverage_of(surface: &Surface<'_>, notes: &mut Vec<String>) -> f64 {
     let coverage = hull_share(&surface.shares());
     if coverage < THIN_COVERAGE {
         notes.push(format!(

@@ -15,9 +15,11 @@
 mod channels;
 mod correlation;
 mod features;
+mod fit;
 mod model;
 mod real_transform;
 mod relation;
+mod selection;
 mod similarity;
 #[cfg(test)]
 mod tests;
@@ -26,11 +28,15 @@ use crate::dsp::threshold::Threshold;
 use crate::units::Hertz;
 
 pub use crate::signals::quality::features::Features;
+pub use crate::signals::quality::fit::{QualityFit, USUAL_TOLERANCE, fit_quality_model};
 pub use crate::signals::quality::model::{
-    Elimination, PAPER_FEATURES, PAPER_PAIRS, PAPER_RATE, PAPER_WEIGHTS, QualityModel, QualityModelError,
-    RatedPair, Rotation, Term, eliminate, nested_r_squared, rotate,
+    MOST_PAIRS, MOST_TEXTURES, PAPER_FEATURES, PAPER_PAIRS, PAPER_RATE, PAPER_WEIGHTS, QualityModel,
+    QualityModelError, RatedPair, Term,
 };
 pub use crate::signals::quality::relation::{Agreement, Relation};
+pub use crate::signals::quality::selection::{
+    Elimination, NestedValidation, Rotation, eliminate, nested_validation, rotate,
+};
 pub use crate::signals::quality::similarity::{snr_db, spqi, st_sim};
 
 use self::channels::Channels;

@@ -297,11 +297,12 @@ impl Authoring {
                     authored.is_extrapolated = reached.distance(authored.location.at) > 1e-9;
                     authored.location.clamped = reached.distance(point) > 1e-9;
                     authored.location.at = reached;
-                    authored.parents = models.weights(reached);
+                    let weights = models.weights(reached);
+                    authored.parents = models.weighted_textures(&weights);
                     // Far from all textures, a spectrum may exceed the limits of a texture model; then the output is
                     // silent.
                     let axes = models.axes(&authored.parents);
-                    let model = models.texture(reached, &axes, None).ok();
+                    let model = models.texture((reached, &weights), &axes, None).ok();
                     authored.model = model.map(|model| self.layered(model, models, &authored.parents, &axes));
                     authored.lock = self.lock(reached, &blending.locked);
                     if let Some((locked, share)) = authored.lock {
@@ -327,7 +328,8 @@ impl Authoring {
             // An invalid texture gives `None`, as in `author`.
             (Some(lock), Some(models)) => {
                 let axes = models.axes(&authored.parents);
-                let model = models.texture(authored.location.at, &axes, Some(lock)).ok()?;
+                let at = authored.location.at;
+                let model = models.texture((at, &models.weights(at)), &axes, Some(lock)).ok()?;
                 Some(self.layered(model, models, &authored.parents, &axes))
             }
             _ => authored.model,

@@ -124,14 +124,14 @@ impl Field {
     }
 
     /// Texture at a point of the unit cube, optionally moved by a weight of 0..1 towards the texture of a site. Its grains
-    /// are those across and along the lay of `axes`.
+    /// are those across and along the lay of `axes`. `weights` are those of the sites at this point ([`Field::weights`]).
     ///
     /// # Errors
     /// [`TextureModelError`] if the result is not a valid texture, which is possible far from all textures.
     pub(crate) fn texture(
         &self,
         sampling: &Sampling,
-        at: Unit,
+        (at, weights): (Unit, &[f64]),
         axes: &MeanAxes,
         towards: Option<(Site<'_>, f64)>,
     ) -> Result<TextureModel, TextureModelError> {
@@ -140,7 +140,7 @@ impl Field {
         Arch::new().dispatch(AddAll { scores: &scores, components: &self.components, to: &mut ln_psd });
         let mut ln_friction = self.friction.as_ref().map(|surface| surface.at(at)[0]);
         let mut tap = self.tap.as_ref().map(|surface| surface.at(at));
-        let differences = self.anisotropy.as_ref().map(|of| of.at(&self.weights(at), axes, towards));
+        let differences = self.anisotropy.as_ref().map(|of| of.at(weights, axes, towards));
         if let Some((own, share)) = towards {
             let mix = |field: f64, own: f64| field + share * (own - field);
             for (field, own) in ln_psd.iter_mut().zip(&own.grain.ln_psd) {

@@ -7,22 +7,25 @@
 //! physical labels from its level, contains part of the answer; [`Outcome::shape_error_db`] excludes the overall
 //! level.
 
+mod error;
+mod parts;
 pub(in crate::space) mod rest;
 mod signals;
 
+pub use crate::space::leave_one_out::error::LeaveOneOutError;
+pub use crate::space::leave_one_out::parts::{LeaveOneOutPart, PartsError, join_parts};
+
 use crate::dsp::spectrum::median;
+use crate::maths::shard::Shard;
 use crate::maths::statistics::mean;
-use crate::space::authoring::{Blending, BlendingError, ModelsError};
+use crate::space::authoring::Blending;
 use crate::space::fidelity::{
     Channels, Profile, error_db, is_within_measured, level_error_db, shape_error_db,
 };
 use crate::space::{Space, SpaceError, SpacePoint};
 use crate::texture::TextureModel;
-use crate::texture::rate::AtRateError;
-use crate::texture::render::RenderError;
 
 use crate::space::leave_one_out::rest::{Made, Placed, Rests, is_inside, nearest};
-use crate::space::leave_one_out::signals::Rendered;
 
 /// Minimum number of textures with a position: three, and one inside their triangle.
 const MIN_PLACED: usize = 4;
@@ -150,95 +153,8 @@ pub struct Outcome {
     pub nrs: Option<f64>,
     /// Spectral distance between rendered signals, in dB; `None` if none were rendered.
     pub signal_error_db: Option<f64>,
-}
-
-/// Reasons why the leave-one-out evaluation fails.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LeaveOneOutError {
-    /// Too few textures have a position.
-    #[error(
-        "leave-one-out evaluation needs {MIN_PLACED} textures with a position, got {n}; place more of them"
-    )]
-    TooFew {
-        /// Number of textures with a position.
-        n: usize,
-    },
-    /// In a plane, no texture is strictly inside the hull of the others.
-    #[error(
-        "none of the {n} textures lies strictly inside the convex hull of the others (are all on one line?), so none can be interpolated; place some inside"
-    )]
-    NoneInside {
-        /// Number of textures with a position.
-        n: usize,
-    },
-    /// On one axis, no texture is strictly between two others.
-    #[error(
-        "none of the {n} textures lies strictly between two others on the axis, so none can be interpolated; place some between"
-    )]
-    NoneBetween {
-        /// Number of textures with a position.
-        n: usize,
-    },
-    /// The mode does not support the interpolation options.
-    #[error(transparent)]
-    Blending(#[from] BlendingError),
-    /// The positions make no space.
-    #[error("the positions of the textures are invalid; every coordinate must be a finite number")]
-    Space(#[from] SpaceError),
-    /// A texture cannot be converted to the sample rate of the others.
-    #[error("texture {texture} cannot be converted to the sample rate of the others")]
-    Rate {
-        /// Library index of the texture.
-        texture: usize,
-        /// Cause of the failure.
-        source: AtRateError,
-    },
-    /// The remaining textures cannot be interpolated.
-    #[error("without texture {texture} the other textures cannot be interpolated")]
-    Models {
-        /// Library index of the removed texture.
-        texture: usize,
-        /// Cause of the failure.
-        source: ModelsError,
-    },
-    /// A mode gives no texture at the position.
-    #[error("mode {mode} gives no texture at the position of texture {texture}; leave this mode out")]
-    Unmade {
-        /// Library index of the removed texture.
-        texture: usize,
-        /// Identifier of the mode.
-        mode: &'static str,
-    },
-    /// A signal cannot be rendered.
-    #[error("texture {texture} could not be rendered")]
-    Render {
-        /// Library index of the removed texture.
-        texture: usize,
-        /// Cause of the failure.
-        source: RenderError,
-    },
-    /// The caller stopped the evaluation.
-    #[error("the leave-one-out evaluation was stopped before it finished")]
-    Stopped,
-}
-
-impl LeaveOneOutError {
-    /// Library index of the texture that the error concerns, if any.
-    pub fn texture(&self) -> Option<usize> {
-        match self {
-            Self::Rate { texture, .. }
-            | Self::Models { texture, .. }
-            | Self::Unmade { texture, .. }
-            | Self::Render { texture, .. } => Some(*texture),
-            Self::TooFew { .. }
-            | Self::NoneInside { .. }
-            | Self::NoneBetween { .. }
-            | Self::Blending(_)
-            | Self::Space(_)
-            | Self::Stopped => None,
-        }
-    }
+    /// Spectral distance between the rendered signal and its own model, in dB; `None` if none was rendered.
+    pub signal_from_model_db: Option<f64>,
 }
 
 /// Interpolates every texture that lies strictly inside the hull of the others from the remaining textures, and
@@ -255,32 +171,48 @@ pub fn leave_one_out(
     plan: &Plan,
     on_progress: &mut dyn FnMut(usize, usize) -> bool,
 ) -> Result<LeaveOneOut, LeaveOneOutError> {
+    let part = leave_one_out_part(textures, plan, Shard::WHOLE, on_progress)?;
+    Ok(part.alone(methods_of(plan), plan.signals))
+}
+
+/// As [`leave_one_out`], for a part of the evaluated textures. All parts together are the whole ([`join_parts`]), to the bit.
+///
+/// # Errors
+/// See [`LeaveOneOutError`].
+pub fn leave_one_out_part(
+    textures: &[(&TextureModel, Option<SpacePoint>)],
+    plan: &Plan,
+    shard: Shard,
+    on_progress: &mut dyn FnMut(usize, usize) -> bool,
+) -> Result<LeaveOneOutPart, LeaveOneOutError> {
     let n_axes = textures.iter().find_map(|(_, at)| *at).map_or(2, SpacePoint::n_axes);
     for blending in &plan.blendings {
         blending.check_in(n_axes)?;
     }
     let mut rests = Rests::new(textures);
-    let nearest_first = std::iter::once(Method::Nearest);
-    let methods = nearest_first.chain(plan.blendings.iter().cloned().map(Method::Blended)).collect();
     let mut author = |left_out: &Placed, nearest: &Placed| {
         let authored = rests.made_without(left_out, &plan.blendings)?;
         Ok(std::iter::once(nearest.original()).chain(authored).collect())
     };
-    measure(textures, methods, plan.signals, &mut author, on_progress)
+    measure(textures, (plan.signals, shard), &mut author, on_progress)
+}
+
+/// Methods of a plan: a copy of the nearest texture, then its interpolation options.
+fn methods_of(plan: &Plan) -> Vec<Method> {
+    std::iter::once(Method::Nearest).chain(plan.blendings.iter().cloned().map(Method::Blended)).collect()
 }
 
 /// Predicts the texture at the position of a removed texture, with every method. The arguments are the removed texture
 /// and the nearest other texture.
 type Author<'a> = dyn FnMut(&Placed, &Placed) -> Result<Vec<Made>, LeaveOneOutError> + 'a;
 
-/// Like [`leave_one_out`], with predictions from `author`.
+/// Like [`leave_one_out_part`], with predictions from `author`.
 fn measure(
     textures: &[(&TextureModel, Option<SpacePoint>)],
-    methods: Vec<Method>,
-    signals: Option<SignalPlan>,
+    (signals, shard): (Option<SignalPlan>, Shard),
     author: &mut Author<'_>,
     on_progress: &mut dyn FnMut(usize, usize) -> bool,
-) -> Result<LeaveOneOut, LeaveOneOutError> {
+) -> Result<LeaveOneOutPart, LeaveOneOutError> {
     let placed = Placed::all(textures)?;
     if placed.len() < MIN_PLACED {
         return Err(LeaveOneOutError::TooFew { n: placed.len() });
@@ -308,12 +240,13 @@ fn measure(
         });
     }
     let rendered_every = signals.map(|plan| inside.len().div_ceil(plan.n_textures.max(1)));
-    let mut left_out = Vec::with_capacity(inside.len());
-    let mut checks: Vec<Vec<Rendered>> = vec![Vec::new(); methods.len()];
-    for (n_done, index) in inside.iter().copied().enumerate() {
-        if !on_progress(n_done, inside.len()) {
+    let ours: Vec<usize> = shard.indices(inside.len()).collect();
+    let mut left_out = Vec::with_capacity(ours.len());
+    for (n_done, turn) in ours.iter().copied().enumerate() {
+        if !on_progress(n_done, ours.len()) {
             return Err(LeaveOneOutError::Stopped);
         }
+        let index = inside[turn];
         let original = &placed[index];
         let Some(nearest) = nearest(&placed, original) else {
             return Err(LeaveOneOutError::TooFew { n: placed.len() });
@@ -323,26 +256,22 @@ fn measure(
         let mut outcomes: Vec<Outcome> =
             authored.iter().map(|authored| outcome(authored, index, &profiles, reach_db)).collect();
         if let (Some(plan), Some(every)) = (signals, rendered_every)
-            && n_done.is_multiple_of(every)
+            && turn.is_multiple_of(every)
         {
             let rendered = signals::compare(&plan, original, &profiles[index], &made, &authored);
             let rendered =
                 rendered.map_err(|source| LeaveOneOutError::Render { texture: original.texture, source })?;
-            for ((outcome, checks), rendered) in outcomes.iter_mut().zip(&mut checks).zip(rendered) {
+            for (outcome, rendered) in outcomes.iter_mut().zip(rendered) {
                 outcome.signal_error_db = Some(rendered.error_db);
-                checks.push(rendered);
+                outcome.signal_from_model_db = Some(rendered.from_model_db);
             }
         }
         let (texture, at) = (original.texture, original.at);
         let is_within_measured = is_within_measured(&original.plane);
         left_out.push(LeftOut { texture, at, nearest: nearest.texture, is_within_measured, outcomes });
     }
-    on_progress(inside.len(), inside.len());
-    let summaries = methods.into_iter().zip(&checks).enumerate().map(|(index, (method, rendered))| {
-        let outcomes: Vec<&Outcome> = left_out.iter().map(|left| &left.outcomes[index]).collect();
-        summary(method, &outcomes, signals.and_then(|plan| signals::check(&plan, rendered)))
-    });
-    Ok(LeaveOneOut { methods: summaries.collect(), textures: left_out, on_hull, reach_db })
+    on_progress(ours.len(), ours.len());
+    Ok(LeaveOneOutPart { shard, n_evaluated: inside.len(), textures: left_out, on_hull, reach_db })
 }
 
 /// Space without one texture; its indices are still those of the library.
@@ -372,6 +301,7 @@ fn outcome(authored: &Profile, original: usize, profiles: &[Profile], reach_db: 
         rank: 1 + profiles.iter().filter(|other| error_db(authored, other) < distance).count(),
         nrs: (reach_db > 0.0).then_some(1.0 - distance / reach_db),
         signal_error_db: None,
+        signal_from_model_db: None,
     }
 }
 

@@ -25,6 +25,8 @@ const BINS_AT_1_KHZ: f64 = 128.0;
 const MIN_ORDER: usize = 20;
 /// Additional poles that approximate a moving average.
 const POLES_FOR_ZEROS: usize = 8;
+/// Highest order for a texture with a moving average; more poles would approximate details of no importance.
+const MAX_WITH_ZEROS: usize = 32;
 /// Minimum spacing of line spectral frequencies, in radians.
 const GAP: f64 = 1e-4;
 /// Lower limit of a spectral density, in (m/s²)²/Hz; smaller densities are raised to it. The corresponding level over
@@ -94,7 +96,7 @@ impl Sampling {
         let rate = planes.first()?.rate();
         let poles = |plane: &&Plane| {
             let [order, ma_order] = plane.orders();
-            order + if ma_order > 0 { ma_order + POLES_FOR_ZEROS } else { 0 }
+            if ma_order > 0 { (order + ma_order + POLES_FOR_ZEROS).min(MAX_WITH_ZEROS) } else { order }
         };
         let order = planes.iter().map(poles).max()?.clamp(MIN_ORDER, MAX_ORDER).next_multiple_of(2);
         let n_bins = (BINS_AT_1_KHZ * rate.0 / 1000.0).ceil() as usize;

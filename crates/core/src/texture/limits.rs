@@ -5,6 +5,9 @@ use std::ops::RangeInclusive;
 /// Highest predictor order that the renderer supports.
 pub const MAX_ORDER: usize = shagreen_synth::texture::MAX_ORDER;
 
+/// Highest order of the moving average of a published texture that the renderer supports.
+pub const MAX_MA_ORDER: usize = shagreen_synth::texture::MAX_MA_ORDER;
+
 /// Maximum number of nodes of a texture. With the boundary it has twice as many triangles, whose indices still fit 16
 /// bits in the renderer.
 pub const MAX_NODES: usize = 20_000;

@@ -6,16 +6,19 @@ mod hull_edges;
 mod prepared;
 mod radial;
 mod refined;
+mod table;
 mod values;
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use shagreen_synth::stick_slip::Friction;
 
 pub use crate::texture::plane::prepared::Prepared;
+pub use crate::texture::plane::table::{About, TABLE_MAGIC, TableError, table_about};
 
 use crate::dsp::arma;
+use crate::dsp::band_power::{BandPower, band_powers};
 use crate::dsp::lsf::ar_from_lsf;
 use crate::maths::triangulation::{Triangulation, Xy};
 use crate::texture::height_map::HeightMap;
@@ -124,6 +127,13 @@ impl Grain {
     /// One-sided power spectral density in (m/s²)²/Hz at each frequency.
     pub fn psd(&self, frequencies: &[Hertz]) -> Vec<f64> {
         self.response(frequencies).into_iter().map(|(re, im)| re * re + im * im).collect()
+    }
+
+    /// Power in (m/s²)² and mean frequency in each band between neighboring edges, which ascend within 0 Hz and half of the
+    /// model rate.
+    pub fn band_powers(&self, edges: &[Hertz]) -> Vec<BandPower> {
+        let breaks: Vec<Hertz> = self.lsf.iter().map(|radians| Hertz(self.rate.0 * radians / TAU)).collect();
+        band_powers(|frequencies| self.psd(frequencies), edges, &breaks)
     }
 }
 

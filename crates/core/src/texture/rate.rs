@@ -6,10 +6,8 @@
 use crate::dsp::ar::{self, levinson};
 use crate::dsp::arma;
 use crate::dsp::lsf::{ar_from_lsf, lsf_from_ar};
-use crate::texture::refit::{FAINTEST, SpectrumGrid, relative_density};
-use crate::texture::{
-    Grain, GrainNode, Interpolation, MAX_ORDER, PublishedNode, TextureModel, TextureModelError,
-};
+use crate::texture::refit::{FAINTEST, LEAST_ORDER, SpectrumGrid, relative_density};
+use crate::texture::{Grain, GrainNode, Interpolation, PublishedNode, TextureModel, TextureModelError};
 use crate::units::Hertz;
 
 /// Fraction of the old Nyquist frequency up to which spectra are compared.
@@ -64,8 +62,8 @@ pub fn highest_rate<'a, I: IntoIterator<Item = &'a TextureModel>>(models: I) -> 
 
 /// Converts a model to `rate`, at least its own rate.
 ///
-/// The result has predictors of order [`MAX_ORDER`] without a moving average, and the same level at every node. At its
-/// own rate the model is returned unchanged.
+/// The result has predictors of order 32, or of the model's own order if that is higher, without a moving average, and
+/// the same level at every node. At its own rate the model is returned unchanged.
 ///
 /// # Errors
 /// See [`AtRateError`].
@@ -77,7 +75,7 @@ pub fn at_rate(model: &TextureModel, rate: Hertz) -> Result<AtRate, AtRateError>
     if rate.0.is_nan() || rate.0 < own.0 {
         return Err(AtRateError::Lower { own_hz: own.0, rate_hz: rate.0 });
     }
-    let converter = Converter::new(own, rate);
+    let converter = Converter::new(own, rate, model.order().max(LEAST_ORDER));
     let mut errors_db = Vec::with_capacity(model.n_nodes());
     let mut convert = |index: usize, lsf: &[f64], ma_lsf: &[f64]| {
         let filter = [ar_from_lsf(lsf), ar_from_lsf(ma_lsf)];
@@ -144,12 +142,12 @@ struct Converter {
 }
 
 impl Converter {
-    fn new(own: Hertz, rate: Hertz) -> Self {
+    fn new(own: Hertz, rate: Hertz, order: usize) -> Self {
         let compared = COMPARED * 0.5 * own.0;
         Self {
             own,
             rate,
-            grid: SpectrumGrid::new(own, rate),
+            grid: SpectrumGrid::new(own, rate, order),
             compared: (0..N_COMPARED)
                 .map(|i| Hertz(compared * (i as f64 + 0.5) / N_COMPARED as f64))
                 .collect(),
@@ -163,7 +161,7 @@ impl Converter {
         for density in &mut spectrum {
             *density = density.max(FAINTEST);
         }
-        let predictor = levinson(&self.grid.lags(&spectrum), MAX_ORDER).ar;
+        let predictor = levinson(&self.grid.lags(&spectrum), self.grid.order()).ar;
         let lsf = lsf_from_ar(&predictor)?;
         let wanted = relative_density(filter, self.own, &self.compared);
         // Both filters have unit power; at the new rate this power is spread over a wider band.
@@ -181,16 +179,17 @@ impl Converter {
 mod tests {
     use super::{AtRateError, at_rate, highest_rate};
     use crate::texture::plane::Plane;
+    use crate::texture::refit::LEAST_ORDER;
     use crate::texture::stick_slip::StickSlip;
     use crate::texture::tap::Tap;
     use crate::texture::test_textures::{arma, two_resonances};
-    use crate::texture::{GrainNode, Interpolation, MAX_ORDER, TextureModel};
+    use crate::texture::{GrainNode, Interpolation, TextureModel};
     use crate::units::{Contact, Hertz, MetersPerSecond};
 
     /// Checks the root mean square spectral difference up to 450 Hz at all contacts, in dB, and the level.
     fn check(model: &TextureModel, rate_hz: f64, bound_db: f64) {
         let converted = at_rate(model, Hertz(rate_hz)).unwrap();
-        assert_eq!((converted.model.rate().0, converted.model.order()), (rate_hz, MAX_ORDER));
+        assert_eq!((converted.model.rate().0, converted.model.order()), (rate_hz, LEAST_ORDER));
         assert_eq!(converted.model.interpolation(), model.interpolation());
         assert!(converted.error_db_worst < bound_db, "reported error {} dB", converted.error_db_worst);
         let (before, after) = (Plane::new(model), Plane::new(&converted.model));

@@ -8,9 +8,10 @@
 use std::f64::consts::PI;
 
 use crate::dsp::arma;
-use crate::texture::MAX_ORDER;
 use crate::units::Hertz;
 
+/// Lowest order of a refitted predictor. A texture of a higher order keeps its order, and with it its sharp peaks.
+pub(super) const LEAST_ORDER: usize = 32;
 /// Number of spectral points between zero and the new Nyquist frequency.
 const N_POINTS: usize = 2048;
 /// Width of the transition above the old Nyquist frequency, relative to that frequency, and density above the
@@ -23,9 +24,6 @@ const FLOOR: f64 = 1e-4;
 /// Lowest density relative to the mean; deeper notches make the equations ill-conditioned.
 pub(super) const FAINTEST: f64 = 1e-8;
 
-/// Autocorrelation from lag 0 to lag [`MAX_ORDER`].
-pub(super) type Lags = [f64; MAX_ORDER + 1];
-
 /// Frequencies between zero and half of a new rate, shared by all nodes of a texture.
 pub(super) struct SpectrumGrid {
     own: Hertz,
@@ -34,13 +32,14 @@ pub(super) struct SpectrumGrid {
     below: Vec<Hertz>,
     /// Progress of the transition at each point above the old Nyquist frequency, 0 to 1.
     fall: Vec<f64>,
-    /// `cos(2π f k / rate)` for each point `f` and each lag `k`.
-    cosines: Vec<Lags>,
+    /// `cos(2π f k / rate)`: for each point `f`, one for each lag `k` up to the order.
+    cosines: Vec<f64>,
+    n_lags: usize,
 }
 
 impl SpectrumGrid {
-    /// Grid up to half of `rate`, for filters of the rate `own`.
-    pub(super) fn new(own: Hertz, rate: Hertz) -> Self {
+    /// Grid up to half of `rate`, for filters of the rate `own` that become predictors of this order.
+    pub(super) fn new(own: Hertz, rate: Hertz, order: usize) -> Self {
         let nyquist = 0.5 * own.0;
         let (below, above): (Vec<f64>, Vec<f64>) =
             (0..N_POINTS).map(|i| point(i, rate).0).partition(|f| *f < nyquist);
@@ -57,8 +56,10 @@ impl SpectrumGrid {
             below: below.into_iter().map(Hertz).collect(),
             fall: above.into_iter().map(fall).collect(),
             cosines: (0..N_POINTS)
-                .map(|i| std::array::from_fn(|k| cosines[(2 * i + 1) * k % period]))
+                .flat_map(|i| (0..=order).map(move |k| (2 * i + 1) * k % period))
+                .map(|angle| cosines[angle])
                 .collect(),
+            n_lags: order + 1,
         }
     }
 
@@ -89,10 +90,15 @@ impl SpectrumGrid {
         (mean * self.rate.0 / self.own.0).clamp(0.0, 1.0)
     }
 
-    /// Autocorrelation of a density at the points: `r_k = Σ S(f_i) cos(2π f_i k / rate)`.
-    pub(super) fn lags(&self, spectrum: &[f64]) -> Lags {
-        let mut lags = [0.0; MAX_ORDER + 1];
-        for (density, cosines) in spectrum.iter().zip(&self.cosines) {
+    /// Order of the predictors.
+    pub(super) fn order(&self) -> usize {
+        self.n_lags - 1
+    }
+
+    /// Autocorrelation of a density at the points, up to the lag of the order: `r_k = Σ S(f_i) cos(2π f_i k / rate)`.
+    pub(super) fn lags(&self, spectrum: &[f64]) -> Vec<f64> {
+        let mut lags = vec![0.0; self.n_lags];
+        for (density, cosines) in spectrum.iter().zip(self.cosines.chunks_exact(self.n_lags)) {
             for (lag, cosine) in lags.iter_mut().zip(cosines) {
                 *lag += density * cosine;
             }
@@ -115,10 +121,9 @@ pub(super) fn relative_density(filter: &[Vec<f64>; 2], rate: Hertz, frequencies:
 
 #[cfg(test)]
 mod tests {
-    use super::SpectrumGrid;
+    use super::{LEAST_ORDER, SpectrumGrid};
     use crate::dsp::ar::levinson;
     use crate::dsp::ar::test_signals::from_resonances;
-    use crate::texture::MAX_ORDER;
     use crate::units::Hertz;
 
     /// At its own rate, a predictor is fitted to itself, with zeros behind it.
@@ -126,13 +131,16 @@ mod tests {
     fn a_predictor_is_its_own_fit() {
         let rate = Hertz(1000.0);
         let ar = from_resonances(rate, &[(Hertz(70.0), 0.95), (Hertz(230.0), 0.9)]);
-        let grid = SpectrumGrid::new(rate, rate);
-        let spectrum = grid.spectrum(&[ar.clone(), Vec::new()]);
-        assert_eq!(grid.kept_power(&spectrum), 1.0);
-        let fit = levinson(&grid.lags(&spectrum), MAX_ORDER).ar;
-        for (i, a) in fit.iter().enumerate() {
-            let expected = ar.get(i).copied().unwrap_or_default();
-            assert!((a - expected).abs() < 1e-8, "coefficient {i} is {a}, expected {expected}");
+        for order in [LEAST_ORDER, 64] {
+            let grid = SpectrumGrid::new(rate, rate, order);
+            let spectrum = grid.spectrum(&[ar.clone(), Vec::new()]);
+            assert_eq!(grid.kept_power(&spectrum), 1.0);
+            let fit = levinson(&grid.lags(&spectrum), grid.order()).ar;
+            assert_eq!(fit.len(), order);
+            for (i, a) in fit.iter().enumerate() {
+                let expected = ar.get(i).copied().unwrap_or_default();
+                assert!((a - expected).abs() < 1e-8, "coefficient {i} is {a}, expected {expected}");
+            }
         }
     }
 
@@ -141,7 +149,7 @@ mod tests {
     fn what_leaves_the_band_is_counted() {
         let white = [vec![0.0], Vec::new()];
         for (rate_hz, kept) in [(250.0, 0.25), (900.0, 0.9), (1000.0, 1.0), (4000.0, 1.0)] {
-            let grid = SpectrumGrid::new(Hertz(1000.0), Hertz(rate_hz));
+            let grid = SpectrumGrid::new(Hertz(1000.0), Hertz(rate_hz), LEAST_ORDER);
             assert!((grid.kept_power(&grid.spectrum(&white)) - kept).abs() < 1e-12);
         }
     }

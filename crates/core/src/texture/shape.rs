@@ -257,8 +257,8 @@ impl Shape {
     /// Returns the texture in this shape; for a neutral shape, the same texture. Values out of range are limited to it.
     ///
     /// First the grain: its spectra are scaled by the grain size, then tilted by the brightness, and fitted again by
-    /// predictors of order [`MAX_ORDER`](crate::texture::MAX_ORDER), if one of the two is not neutral; then its level is
-    /// changed. Grain size keeps the level, except for the power that a finer grain moves above half of the model rate.
+    /// predictors of order 32 (or of the texture's own order, if that is higher), if one of the two is not neutral; then
+    /// its level is changed. Grain size keeps the level, except for the power that a finer grain moves above half of the model rate.
     /// The other layers follow. Relief and height map are stretched by the grain size at the same acceleration, and
     /// their heights are scaled by depth and level.
     ///
@@ -271,7 +271,7 @@ impl Shape {
         if shape.is_neutral() {
             return Ok(model.clone());
         }
-        let mut shaped = match NodeShaper::new(model.rate(), &shape) {
+        let mut shaped = match NodeShaper::new(model, &shape) {
             Some(shaper) => shaped_grain(model, &shaper)?,
             None => model.clone(),
         };

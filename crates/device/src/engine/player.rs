@@ -3,6 +3,7 @@
 use std::mem::{Discriminant, discriminant};
 
 use shagreen_synth::contact::{Contact, ContactSource, Place};
+use shagreen_synth::stream::REQUEST_SECS;
 
 use super::FADE_SECS;
 use super::place::FollowedPlace;
@@ -26,10 +27,6 @@ pub(super) struct Landing {
     /// Impact speed relative to the reference ([`strength_of`]).
     pub(super) strength: f32,
 }
-
-/// Time after the begin of a tick at which the tick has certainly been requested, in seconds. The filters after it delay
-/// its samples by more.
-const REQUEST_SECS: f64 = 5e-5;
 
 /// The input with its clock, and the fade from the previous input.
 #[derive(Debug)]

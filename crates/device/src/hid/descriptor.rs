@@ -208,6 +208,23 @@ impl Field {
         let is_negative = self.logical_min < 0 && bits >> (self.bit_size - 1) == 1;
         Some(bits.cast_signed() - if is_negative { 1 << self.bit_size } else { 0 })
     }
+
+    /// Writes the raw value of field `index` into a report of the declared length. A value that needs more bits than the
+    /// field has loses the highest ones. Returns whether the report has the field.
+    pub fn set_value(&self, report: &mut [u8], index: u32, value: i64) -> bool {
+        let has_bits = index < self.count && (1..=32).contains(&self.bit_size);
+        let start = u64::from(self.bit_offset) + u64::from(index) * u64::from(self.bit_size);
+        let end = start + u64::from(self.bit_size);
+        if !has_bits || end > 8 * report.len() as u64 {
+            return false;
+        }
+        for bit in 0..self.bit_size {
+            let at = start + u64::from(bit);
+            let (byte, mask) = (&mut report[(at / 8) as usize], 1 << (at % 8));
+            *byte = if value >> bit & 1 == 1 { *byte | mask } else { *byte & !mask };
+        }
+        true
+    }
 }
 
 impl Report {

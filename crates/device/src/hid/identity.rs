@@ -1,6 +1,8 @@
 //! Identity of pens: ids that stay the same after replugging, and instructions for refused access.
 
 use crate::error::{DeviceError, DeviceErrorKind};
+use crate::operating_system::OperatingSystem;
+use crate::pen_backend::{Access, Backend, Provides};
 
 /// Connection type of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,8 +21,9 @@ pub enum HidBus {
 /// A pen of this machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct HidPen {
-    /// Id by which the pen is chosen: `hid:VENDOR:PRODUCT`, with the serial number if it has one. Pens with equal ids
-    /// get the interface number added or, as a last resort, the path, which may change.
+    /// Id by which the pen is chosen: `hid:VENDOR:PRODUCT` (`raw:VENDOR:PRODUCT` for Raw Input), with the serial number
+    /// if it has one. Pens with equal ids get the interface number added or, as a last resort, the path, which may
+    /// change.
     pub id: String,
     /// Display name.
     pub name: String,
@@ -36,16 +39,26 @@ pub struct HidPen {
     pub path: String,
     /// Connection type.
     pub bus: HidBus,
-    /// Whether it reports pressure; `None` if this is unknown before the pen is opened.
-    pub has_pressure: Option<bool>,
+    /// How it is read.
+    pub backend: Backend,
+    /// Quantities that it provides, as far as they are known before it is opened.
+    pub provides: Provides,
+    /// Whether this program may read it.
+    pub access: Access,
 }
+
+/// Prefix of the ids of pens that are read by HID.
+pub const HID_PREFIX: &str = "hid:";
+/// Prefix of the ids of pens that are read by Raw Input.
+pub const RAW_PREFIX: &str = "raw:";
 
 /// Returns the pens with their ids set, sorted by id.
 pub fn with_ids(mut pens: Vec<HidPen>) -> Vec<HidPen> {
-    pens.sort_by(|a, b| a.path.cmp(&b.path));
-    pens.dedup_by(|b, a| a.path == b.path);
+    pens.sort_by(|a, b| (&a.path, a.backend).cmp(&(&b.path, b.backend)));
+    pens.dedup_by(|b, a| a.path == b.path && a.backend == b.backend);
     for pen in &mut pens {
-        pen.id = format!("hid:{:04x}:{:04x}", pen.vendor_id, pen.product_id);
+        let prefix = if pen.backend == Backend::RawInput { RAW_PREFIX } else { HID_PREFIX };
+        pen.id = format!("{prefix}{:04x}:{:04x}", pen.vendor_id, pen.product_id);
         if let Some(serial) = pen.serial.as_deref().map(str::trim).filter(|serial| !serial.is_empty()) {
             // Ids are typed and stored, so they have no spaces or control characters.
             let plain = serial.chars().map(|c| if c.is_ascii_graphic() { c } else { '_' });
@@ -89,26 +102,36 @@ pub fn udev_rule(pen: &HidPen) -> String {
 
 /// Error for a pen whose access the system refuses, with instructions.
 pub(crate) fn denied(pen: &HidPen) -> DeviceError {
-    let message = if cfg!(target_os = "linux") {
-        format!(
-            "the system does not let you read the pen {} ({}). Write the line\n  {}\ninto {UDEV_RULES_FILE}, for example by\n  echo '{}' | sudo tee {UDEV_RULES_FILE}\nthen run\n  sudo udevadm control --reload && sudo udevadm trigger\nand plug the pen in again",
-            pen.name,
-            pen.path,
-            udev_rule(pen),
-            udev_rule(pen)
-        )
-    } else {
-        format!(
-            "the system does not let this program read the pen {}; allow it in the system's privacy settings (input monitoring), or use the system's pen driver",
-            pen.name
-        )
-    };
-    DeviceError::new(DeviceErrorKind::Denied, message)
+    DeviceError::new(DeviceErrorKind::Denied, denied_on(OperatingSystem::HERE, pen))
+}
+
+/// Says that the system refuses access to a pen, and what to do about it.
+pub fn denied_on(system: OperatingSystem, pen: &HidPen) -> String {
+    let HidPen { name, path, .. } = pen;
+    match system {
+        OperatingSystem::Linux => {
+            let rule = udev_rule(pen);
+            format!(
+                "the system does not let you read the pen {name} ({path}). Write the line\n  {rule}\ninto {UDEV_RULES_FILE}, for example by\n  echo '{rule}' | sudo tee {UDEV_RULES_FILE}\nthen run\n  sudo udevadm control --reload && sudo udevadm trigger\nand plug the pen in again"
+            )
+        }
+        OperatingSystem::MacOs => format!(
+            "macOS does not let this program read the pen {name}: open System Settings > Privacy & Security > Input Monitoring, turn on Shagreen, or the terminal that started it, and start Shagreen again"
+        ),
+        OperatingSystem::Windows => format!(
+            "Windows opens pens exclusively, so that {name} cannot be read by HID: select the same pen with Raw Input, or the window pointer"
+        ),
+        OperatingSystem::Other => format!(
+            "the system does not let you read the pen {name} ({path}): ask its administrator for permission to read this device"
+        ),
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{HidBus, HidPen, denied, udev_rule, with_ids};
+    use super::{
+        Access, Backend, HidBus, HidPen, OperatingSystem, Provides, denied, denied_on, udev_rule, with_ids,
+    };
     use crate::error::DeviceErrorKind;
 
     fn pen(path: &str, serial: Option<&str>, interface: Option<u8>) -> HidPen {
@@ -121,7 +144,9 @@ mod tests {
             interface,
             path: path.into(),
             bus: HidBus::Usb,
-            has_pressure: None,
+            backend: Backend::Hid,
+            provides: Provides::UNKNOWN,
+            access: Access::Unknown,
         }
     }
 
@@ -165,6 +190,17 @@ mod tests {
                 assert!(error.message().contains(part), "{part}");
             }
         }
+        for (system, part) in [
+            (OperatingSystem::Linux, "udevadm trigger"),
+            (OperatingSystem::MacOs, "Privacy & Security > Input Monitoring"),
+            (OperatingSystem::Windows, "Raw Input"),
+            (OperatingSystem::Other, "administrator"),
+        ] {
+            let told = denied_on(system, &usb);
+            assert!(told.contains(part) && told.contains("Pen"), "{told}");
+        }
+        let raw = HidPen { backend: Backend::RawInput, ..usb.clone() };
+        assert_eq!(ids(vec![raw]), ["raw:056a:0374"]);
         let built_in = HidPen { bus: HidBus::I2c, ..usb };
         assert_eq!(udev_rule(&built_in), r#"KERNEL=="hidraw*", KERNELS=="*:056A:0374.*", TAG+="uaccess""#);
     }

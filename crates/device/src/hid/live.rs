@@ -18,6 +18,7 @@ use crate::hid::identity::HidPen;
 use crate::hid::live::reader::{Command, Doorbell, Reader};
 use crate::hid::tracker::{TrackedSample, TrackerOptions};
 use crate::live::LiveInput;
+use crate::pen_backend::Provides;
 use crate::pressure::PressureMap;
 use crate::urgency::run_before_others;
 
@@ -27,6 +28,8 @@ pub const N_MOMENTS: usize = 4096;
 const READ_TIMEOUT: Duration = Duration::from_millis(20);
 /// Interval between two searches for a missing pen.
 const LOOK_AGAIN: Duration = Duration::from_secs(1);
+/// The same interval if any pen will do: perhaps there will never be one.
+const LOOK_AGAIN_AUTOMATICALLY: Duration = Duration::from_secs(4);
 
 /// A device that sends reports.
 pub trait ReportSource: Send {
@@ -63,7 +66,8 @@ pub trait PenBus: Send {
 /// Choice of the pen, and settings for its reports.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PenOptions {
-    /// Id of the pen: [`HidPen::id`].
+    /// Id of the pen: [`HidPen::id`], or [`AUTOMATIC_ID`](crate::hid::choice::AUTOMATIC_ID) for the pen that provides
+    /// most.
     pub id: String,
     /// Conversion of reports to touches.
     pub tracking: TrackerOptions,
@@ -88,6 +92,8 @@ pub enum PenNotice {
         has_pressure: bool,
         /// Force at full pressure in N, if the pen declares it; otherwise the pressure map applies.
         full_n: Option<f64>,
+        /// Quantities that the pen provides.
+        provides: Provides,
     },
     /// The pen was disconnected. It is searched for and read again when it returns.
     Lost(DeviceError),
@@ -169,6 +175,11 @@ impl PenThread {
     /// ends a stroke in progress; the same size does not.
     pub fn set_size_m(&self, size_m: Option<[f64; 2]>) {
         self.command(Command::Size(size_m));
+    }
+
+    /// Sets whether reports are passed on from now on. While they are not, the tip is lifted; reports are only counted.
+    pub fn set_active(&self, is_active: bool) {
+        self.command(Command::Active(is_active));
     }
 
     /// Calls `ring` after each report and notice from now on, on the pen's thread: it must be quick.

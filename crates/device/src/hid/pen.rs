@@ -10,6 +10,7 @@ mod known;
 
 use crate::hid::descriptor::Descriptor;
 use crate::hid::pen::fields::{PenFields, Slot};
+use crate::pen_backend::{PositionUnit, Provides};
 
 /// One decoded pen report, in SI units where the device declares units.
 #[expect(clippy::struct_excessive_bools, reason = "the switches of a pen are independent")]
@@ -201,6 +202,17 @@ impl PenFormat {
     /// Width and height of the active area in m, if both are known.
     pub fn size_m(&self) -> Option<[f64; 2]> {
         Some([self.x.side_m?, self.y.side_m?])
+    }
+
+    /// Quantities that the reports provide.
+    pub fn provides(&self) -> Provides {
+        let has_size = self.size_m().is_some() && !self.is_size_doubtful;
+        Provides {
+            position: Some(if has_size { PositionUnit::Millimeters } else { PositionUnit::Fraction }),
+            pressure: Some(self.pressure.is_some()),
+            tilt: Some(self.has_tilt),
+            clock: Some(self.clock_round_secs.is_some()),
+        }
     }
 
     fn decode(&self, report: &[u8]) -> Option<PenReport> {

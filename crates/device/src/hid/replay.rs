@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::hid::identity::{HidBus, HidPen};
 use crate::hid::live::{PenBus, ReportSource};
+use crate::pen_backend::{Access, Backend, Provides};
 
 /// A report with its time, in seconds after the start of the replay.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +55,9 @@ impl PenBus for ReplayBus {
             interface: None,
             path: REPLAY_ID.to_owned(),
             bus: HidBus::Other,
-            has_pressure: None,
+            backend: Backend::Hid,
+            provides: Provides::UNKNOWN,
+            access: Access::Granted,
         }])
     }
 

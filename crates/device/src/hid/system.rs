@@ -12,6 +12,7 @@ use crate::hid::descriptor::{self, MAX_DESCRIPTOR_BYTES};
 use crate::hid::identity::{HidBus, HidPen, denied, with_ids};
 use crate::hid::live::{PenBus, ReportSource};
 use crate::hid::pen::{PenDecoder, is_known_pen};
+use crate::pen_backend::{Access, Backend, Provides};
 
 /// The pens that are connected to this machine.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,28 +21,44 @@ pub struct SystemPens;
 impl PenBus for SystemPens {
     fn list(&mut self) -> Result<Vec<HidPen>, DeviceError> {
         let api = HidApi::new().map_err(|error| unavailable(&error))?;
-        Ok(with_ids(api.device_list().filter_map(pen_of).collect()))
+        let pens = api.device_list().filter_map(pen_of);
+        #[cfg(windows)]
+        let pens = pens.chain(crate::hid::raw_input::list());
+        Ok(with_ids(pens.collect()))
     }
 
     fn open(&mut self, pen: &HidPen) -> Result<Box<dyn ReportSource>, DeviceError> {
-        let gone = || {
-            DeviceError::new(
-                DeviceErrorKind::NotFound,
-                format!("the pen {} is not connected; plug it in", pen.name),
-            )
-        };
-        let path = CString::new(pen.path.clone()).map_err(|_| gone())?;
-        let api = HidApi::new().map_err(|error| unavailable(&error))?;
-        let device = api.open_path(&path).map_err(|error| match opening_failed(&error) {
-            DeviceErrorKind::Denied => denied(pen),
-            DeviceErrorKind::NotFound => gone(),
-            kind => DeviceError::new(
-                kind,
-                format!("the pen {} cannot be opened: {error}; plug it in again", pen.name),
-            ),
-        })?;
-        Ok(Box::new(SystemPen { device, name: pen.name.clone() }))
+        #[cfg(windows)]
+        if pen.backend == Backend::RawInput {
+            return crate::hid::raw_input::open(pen);
+        }
+        Ok(Box::new(SystemPen { device: open_device(pen)?, name: pen.name.clone() }))
     }
+}
+
+/// Opens a device for reading and writing.
+///
+/// # Errors
+/// [`DeviceErrorKind::Denied`] with instructions, [`DeviceErrorKind::NotFound`], [`DeviceErrorKind::Busy`] or
+/// [`DeviceErrorKind::Backend`].
+pub(crate) fn open_device(pen: &HidPen) -> Result<HidDevice, DeviceError> {
+    let gone = || {
+        DeviceError::new(
+            DeviceErrorKind::NotFound,
+            format!("the pen {} is not connected; plug it in", pen.name),
+        )
+    };
+    let path = CString::new(pen.path.clone()).map_err(|_| gone())?;
+    let api = HidApi::new().map_err(|error| unavailable(&error))?;
+    api.open_path(&path).map_err(|error| match opening_failed(&error) {
+        DeviceErrorKind::Denied => denied(pen),
+        DeviceErrorKind::Busy if pen.access == Access::Exclusive => denied(pen),
+        DeviceErrorKind::NotFound => gone(),
+        kind => DeviceError::new(
+            kind,
+            format!("the pen {} cannot be opened: {error}; plug it in again", pen.name),
+        ),
+    })
 }
 
 /// An open pen.
@@ -66,12 +83,17 @@ impl ReportSource for SystemPen {
 
 impl SystemPen {
     fn lost(&self, error: &HidError) -> DeviceError {
-        let message = format!("the pen {} is disconnected ({error}); plug it in again", self.name);
-        DeviceError::new(DeviceErrorKind::Lost, message)
+        lost(&self.name, error)
     }
 }
 
-fn unavailable(error: &HidError) -> DeviceError {
+/// Error for an open device `name` that is disconnected.
+pub(crate) fn lost(name: &str, error: &HidError) -> DeviceError {
+    let message = format!("the pen {name} is disconnected ({error}); plug it in again");
+    DeviceError::new(DeviceErrorKind::Lost, message)
+}
+
+pub(crate) fn unavailable(error: &HidError) -> DeviceError {
     let message = format!("the system cannot list its input devices: {error}; try again");
     DeviceError::new(DeviceErrorKind::Unavailable, message)
 }
@@ -108,21 +130,23 @@ fn opening_failed(error: &HidError) -> DeviceErrorKind {
 
 /// Returns a device as a pen, without opening it, from the descriptor or usages that the system lists.
 fn pen_of(device: &DeviceInfo) -> Option<HidPen> {
-    let (vendor_id, product_id) = (device.vendor_id(), device.product_id());
-    let path = device.path().to_str().ok()?; // A path that is not text cannot be chosen.
-    let decoder = declared_descriptor(path).map(|bytes| {
-        descriptor::parse(&bytes)
-            .ok()
-            .and_then(|found| PenDecoder::of_device(&found, Some((vendor_id, product_id))))
+    let found = identity_of(device)?;
+    let ids = (found.vendor_id, found.product_id);
+    let decoder = declared_descriptor(&found.path).map(|bytes| {
+        descriptor::parse(&bytes).ok().and_then(|declared| PenDecoder::of_device(&declared, Some(ids)))
     });
     let is_pen = match &decoder {
         Some(decoder) => decoder.is_some(),
-        // Usages digitizer and pen of the digitizer page.
-        None => {
-            device.usage_page() == 0x0d && matches!(device.usage(), 1 | 2)
-                || is_known_pen(vendor_id, product_id)
-        }
+        None => has_pen_usage(device) || is_known_pen(ids.0, ids.1),
     };
+    let provides = decoder.flatten().map_or(Provides::UNKNOWN, |decoder| decoder.best().provides());
+    is_pen.then_some(HidPen { provides, ..found })
+}
+
+/// Returns the identity of a device without an id. `None` if its path is not text and it cannot be chosen.
+pub(crate) fn identity_of(device: &DeviceInfo) -> Option<HidPen> {
+    let (vendor_id, product_id) = (device.vendor_id(), device.product_id());
+    let path = device.path().to_str().ok()?; // A path that is not text cannot be chosen.
     let text = |text: Option<&str>| text.map(str::trim).filter(|text| !text.is_empty()).map(str::to_owned);
     let (maker, product) = (text(device.manufacturer_string()), text(device.product_string()));
     let name = match (maker, product) {
@@ -131,7 +155,7 @@ fn pen_of(device: &DeviceInfo) -> Option<HidPen> {
         (Some(maker), None) => format!("{maker} pen"),
         (None, None) => format!("Pen {vendor_id:04x}:{product_id:04x}"),
     };
-    is_pen.then(|| HidPen {
+    Some(HidPen {
         id: String::new(),
         name,
         vendor_id,
@@ -145,12 +169,34 @@ fn pen_of(device: &DeviceInfo) -> Option<HidPen> {
             BusType::I2c => HidBus::I2c,
             _ => HidBus::Other,
         },
-        has_pressure: decoder.flatten().map(|decoder| decoder.best().pressure.is_some()),
+        backend: Backend::Hid,
+        provides: Provides::UNKNOWN,
+        access: access_of(device, path),
     })
 }
 
+/// Whether the system lists a device with the usage digitizer or pen of the digitizer page.
+fn has_pen_usage(device: &DeviceInfo) -> bool {
+    device.usage_page() == 0x0d && matches!(device.usage(), 1 | 2)
+}
+
+#[cfg(target_os = "macos")]
+fn access_of(_device: &DeviceInfo, _path: &str) -> Access {
+    crate::hid::input_monitoring::access()
+}
+
+#[cfg(windows)]
+fn access_of(device: &DeviceInfo, _path: &str) -> Access {
+    if has_pen_usage(device) { Access::Exclusive } else { Access::Unknown }
+}
+
+#[cfg(not(any(target_os = "macos", windows)))]
+fn access_of(_device: &DeviceInfo, path: &str) -> Access {
+    Access::to_file(path)
+}
+
 /// Returns the report descriptor of a device that is not open, if the system publishes it.
-fn declared_descriptor(path: &str) -> Option<Vec<u8>> {
+pub(crate) fn declared_descriptor(path: &str) -> Option<Vec<u8>> {
     let node = path.strip_prefix("/dev/").filter(|node| node.starts_with("hidraw"))?;
     let file = format!("/sys/class/hidraw/{node}/device/report_descriptor");
     std::fs::read(file).ok() // Not published: the listed usages are used instead.
@@ -158,7 +204,7 @@ fn declared_descriptor(path: &str) -> Option<Vec<u8>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{HidError, SystemPens, opening_failed};
+    use super::{Access, Backend, HidError, Provides, SystemPens, opening_failed};
     use crate::error::DeviceErrorKind;
     use crate::hid::identity::{HidBus, HidPen};
     use crate::hid::live::PenBus as _;
@@ -181,7 +227,9 @@ mod tests {
             interface: None,
             path: "/dev/hidraw-none".into(),
             bus: HidBus::Usb,
-            has_pressure: None,
+            backend: Backend::Hid,
+            provides: Provides::UNKNOWN,
+            access: Access::Unknown,
         };
         let error = SystemPens.open(&pen).err().unwrap();
         if cfg!(target_os = "linux") {

@@ -40,11 +40,18 @@ pub struct SerialPortInfo {
     pub kind: SerialPortKind,
 }
 
+/// Folder in which Linux lists its serial ports.
+#[cfg(target_os = "linux")]
+const LINUX_LIST: &str = "/sys/class/tty";
+
 /// Lists the serial ports of this machine, sorted by id. None is opened.
 ///
 /// # Errors
+/// - [`DeviceErrorKind::Unavailable`] if the system has no list, as in a bare root folder.
 /// - [`DeviceErrorKind::Backend`] if the system cannot list them.
 pub fn list_serial_ports() -> Result<Vec<SerialPortInfo>, DeviceError> {
+    #[cfg(target_os = "linux")]
+    check_list(std::path::Path::new(LINUX_LIST))?;
     let ports = serialport::available_ports().map_err(|error| {
         DeviceError::new(
             DeviceErrorKind::Backend,
@@ -52,6 +59,16 @@ pub fn list_serial_ports() -> Result<Vec<SerialPortInfo>, DeviceError> {
         )
     })?;
     Ok(describe(ports))
+}
+
+/// Returns an error for a list that cannot be read, on which the library for serial ports panics.
+#[cfg(target_os = "linux")]
+fn check_list(folder: &std::path::Path) -> Result<(), DeviceError> {
+    let problem = |error: std::io::Error| {
+        let message = format!("the serial ports cannot be listed: {}: {error}; mount /sys", folder.display());
+        DeviceError::new(DeviceErrorKind::Unavailable, message)
+    };
+    std::fs::read_dir(folder).map(|_| ()).map_err(problem)
 }
 
 /// Returns the current system name of the port with an id; the prefix `serial:` is optional.
@@ -145,6 +162,17 @@ mod tests {
     fn lists_without_opening_in_order() {
         let ports = list_serial_ports().unwrap();
         assert!(ports.windows(2).all(|w| w[0].id <= w[1].id));
+    }
+
+    /// A bare root folder has no `/sys`.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_system_without_a_list_is_an_error_and_no_panic() {
+        let folder = tempfile::tempdir().unwrap();
+        assert!(super::check_list(folder.path()).is_ok());
+        let error = super::check_list(&folder.path().join("none")).unwrap_err();
+        assert_eq!(error.kind(), DeviceErrorKind::Unavailable);
+        assert!(error.message().contains("none") && error.message().contains("mount /sys"), "{error}");
     }
 
     #[test]

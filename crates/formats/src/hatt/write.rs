@@ -12,6 +12,7 @@ use crate::hatt::boundary::close;
 use crate::hatt::read::neutral_moving_average;
 use crate::hatt::{CREATED_BY, RESTRICTED_TERMS};
 use crate::library::{Provenance, TextureEntry, frequencies};
+use crate::texture_parts::lost_parts;
 
 /// Why a texture cannot be written.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -80,42 +81,7 @@ pub fn lost_in_hatt(entry: &TextureEntry) -> Vec<String> {
             "the interpolation of {between} between nodes: the format interpolates variances, which can raise the level there by some dB"
         ));
     }
-    if entry.path.is_some() {
-        lost.push(
-            "the change along the stroke: only the texture at the start of the path is written".to_owned(),
-        );
-    }
-    if entry.model.tap().is_some() {
-        lost.push("the tap transient".to_owned());
-    }
-    if entry.model.along().is_some() {
-        lost.push("the direction: only the grain across the lay is written".to_owned());
-    }
-    if entry.model.relief().is_some() {
-        lost.push("the relief (acceleration as a function of position)".to_owned());
-    }
-    if entry.model.height_map().is_some() {
-        lost.push("the height map".to_owned());
-    }
-    if entry.model.turn_rad() != 0.0 {
-        lost.push("the rotation on the pad".to_owned());
-    }
-    if entry.model.stick_slip().is_some() {
-        lost.push("stick-slip friction (static friction and Stribeck speed)".to_owned());
-    }
-    if entry.place.is_some() {
-        lost.push("the position in the space".to_owned());
-    }
-    if entry.picture.is_some() {
-        lost.push("the picture".to_owned());
-    }
-    if entry.physical.is_some() {
-        lost.push("the physical labels".to_owned());
-    }
-    let said = [&entry.description, &entry.license, &entry.origin];
-    if !(entry.tags.is_empty() && said.iter().all(|text| text.is_empty())) {
-        lost.push("tags, description, license and origin".to_owned());
-    }
+    lost.extend(lost_parts(entry, &[]));
     lost
 }
 

@@ -1,4 +1,4 @@
-//! File format of a library, versions 1.0 to 1.8.
+//! File format of a library, versions 1.0 to 1.9.
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};

@@ -21,6 +21,10 @@ use crate::picture::Picture;
 /// line.
 const OPEN_DEPTH: usize = 4;
 
+/// The minor version that introduced predictors of an order above [`ORDER_BEFORE`].
+const WITH_HIGH_ORDERS: u32 = 9;
+/// Highest order of a predictor in earlier versions.
+const ORDER_BEFORE: usize = 32;
 /// The minor version that introduced spaces with another number of axes than two.
 const WITH_FURTHER_AXES: u32 = 8;
 /// The minor version that introduced grain along the lay, rotation, height maps, stick-slip friction and standard
@@ -140,6 +144,10 @@ fn models(entry: &TextureEntry) -> impl Iterator<Item = &TextureModel> {
 /// Returns the lowest minor version that has all features of a library, so that older programs can read as much as
 /// possible.
 fn minor_version(library: &Library) -> u32 {
+    let is_high = |model: &TextureModel| model.order() > ORDER_BEFORE;
+    if library.textures.iter().any(|entry| models(entry).any(is_high)) {
+        return WITH_HIGH_ORDERS;
+    }
     let is_plane = |at: SpacePoint| at.n_axes() == USUAL_AXES.len();
     let has_two_axes = |entry: &TextureEntry| {
         let mut keys = entry.path.iter().flat_map(TexturePath::keys);

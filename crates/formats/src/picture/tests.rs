@@ -1,6 +1,6 @@
 use super::{
-    PictureError, PictureFormat, Rgb, brightness_row, check, decode, encode_heights, encode_jpeg, encode_png,
-    recompressed,
+    PictureError, PictureFormat, Rgb, brightness_row, check, decode, encode_heights, encode_jpeg,
+    encode_levels, encode_png, recompressed,
 };
 
 fn gradient() -> Rgb {
@@ -19,6 +19,10 @@ fn heights_and_pixels_come_back_exactly() {
     }
     assert!(brightness_row(&encode_heights(&[1.0; 4], 2).unwrap(), None).unwrap().iter().all(|x| *x == 0.0));
     assert!(matches!(encode_heights(&heights, 63), Err(PictureError::Size { .. })));
+    let levels = [0, 1, 40_000, u16::MAX];
+    let row = brightness_row(&encode_levels(&levels, 2).unwrap(), Some(1)).unwrap();
+    assert!((row[0] - 40_000.0 / 65_535.0).abs() < 1e-12 && row[1] == 1.0, "{row:?}");
+    assert!(matches!(encode_levels(&levels, 4), Err(PictureError::Size { .. })));
 
     let rgb = gradient();
     let bytes = encode_png(&rgb).unwrap();

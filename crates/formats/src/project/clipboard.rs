@@ -29,7 +29,7 @@ use crate::library::TextureEntry;
 use crate::library::read::texture as texture_entry;
 use crate::library::v1::TextureV1;
 use crate::library::write::texture as texture_wire;
-use crate::own_json::{HeaderFault, check_density};
+use crate::own_json::check_density;
 use crate::parser_words::plain;
 use crate::project::read::authored_texture;
 use crate::project::v1::AuthoredV1;
@@ -170,9 +170,7 @@ pub fn read_copied_texture(text: &str) -> Result<CopiedTexture, CopiedTextureErr
     if text.len() > MAX_BYTES {
         return Err(CopiedTextureError::TooLarge { n_bytes: text.len() });
     }
-    if let Err(HeaderFault::TooDense(reason)) = check_density(text.as_bytes()) {
-        return Err(CopiedTextureError::Damaged { reason });
-    }
+    check_density(text.as_bytes()).map_err(|reason| CopiedTextureError::Damaged { reason })?;
     let damaged =
         |error: serde_json::Error| CopiedTextureError::Damaged { reason: plain(&error.to_string()) };
     let mark: Mark = serde_json::from_str(text).map_err(damaged)?;

@@ -55,7 +55,7 @@ pub struct ColumnMap {
     pub time: Option<Column>,
     /// Unit of the time column.
     pub time_unit: Option<TimeUnit>,
-    /// Sample rate in Hz of a table without a time column. If it is stated, a time column that `time` does not name is
+    /// Sample rate in Hz of a table without a time column, or of the signal that a haptic clip becomes. If it is stated, a time column that `time` does not name is
     /// not used.
     pub rate_hz: Option<f64>,
     /// One to three columns of acceleration.
@@ -64,7 +64,8 @@ pub struct ColumnMap {
     pub acceleration_unit: Option<AccelerationUnit>,
     /// Acceleration of one ADC count of a table, in `acceleration_unit`; 1 if not stated.
     pub per_count: Option<f64>,
-    /// Acceleration of a WAV sample of 1.0, in `acceleration_unit`; in a table, the range of the sensor if known.
+    /// Acceleration of a WAV sample or of an amplitude in a haptic clip of 1.0, in `acceleration_unit`; in a table, the range of
+    /// the sensor if known.
     pub full_scale: Option<f64>,
     /// The speed column.
     pub speed: Option<Column>,
@@ -90,6 +91,8 @@ pub struct ColumnMap {
     pub constant_force: Option<Newtons>,
     /// Contents of each WAV channel.
     pub channels: Option<Vec<Channel>>,
+    /// Frequencies of 0 and of 1 in a haptic clip, in Hz; the second is higher.
+    pub frequency_range_hz: Option<[f64; 2]>,
 }
 
 impl Separator {

@@ -1,6 +1,7 @@
 //! Conversion of a table to columns in SI units, by a column map and by names and numbers in the table.
 
 mod axes;
+mod envelope;
 mod tracks;
 
 use shagreen_core::recording::{Fault, RawClock, RawRecording, check_clock};
@@ -27,6 +28,9 @@ pub(super) fn recording_of_table(table: Table, map: &ColumnMap) -> Result<Record
         table.names.iter().map(|name| if table.header { meaning_of(name) } else { None }).collect();
     let mut reading = Reading { inquiry: MapBuilder::new(map.clone()), table, meanings, used: Vec::new() };
     reading.inquiry.warnings.append(&mut reading.table.warnings);
+    if let Some(columns) = reading.envelope_columns() {
+        return reading.envelope(&columns);
+    }
     let clock = reading.clock()?;
     let faults: Vec<Fault> = clock.as_ref().map_or_else(Vec::new, |clock| check_clock(clock).1);
     let axes = reading.acceleration_columns()?;
@@ -39,10 +43,8 @@ pub(super) fn recording_of_table(table: Table, map: &ColumnMap) -> Result<Record
     let force_n = reading.force()?;
     let full_scale = reading.inquiry.map.full_scale;
     reading.name_unused();
-    let Reading { mut inquiry, table, .. } = reading;
-    inquiry.map.separator = Some(table.separator);
-    inquiry.map.decimal_comma = Some(table.decimal_comma);
-    inquiry.map.header = Some(table.header);
+    reading.state_dialect();
+    let Reading { inquiry, .. } = reading;
     let unit = inquiry.map.acceleration_unit.map(AccelerationUnit::si);
     let full_scale_mps2 = full_scale.zip(unit).map(|(scale, si)| scale * si);
     let raw = clock.zip(acceleration).map(|(clock, acceleration_mps2)| RawRecording {
@@ -240,6 +242,14 @@ impl Reading {
         // Times relative to the start keep their precision even if they count from 1970.
         self.used.push(place);
         RawClock::Times(self.table.columns[place].iter().map(|time| (time - start) * si).collect())
+    }
+
+    /// Completes the map with the dialect of the table.
+    fn state_dialect(&mut self) {
+        let Self { inquiry, table, .. } = self;
+        inquiry.map.separator = Some(table.separator);
+        inquiry.map.decimal_comma = Some(table.decimal_comma);
+        inquiry.map.header = Some(table.header);
     }
 
     fn name_unused(&mut self) {

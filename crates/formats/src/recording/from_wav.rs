@@ -69,6 +69,7 @@ pub(super) fn recording_of_wav(
     } else if let Some(trace) = &trace {
         on_clock(&trace.time_s, &trace.speed_mm_per_s, 1e-3, n_samples, rate_hz)
     } else {
+        inquiry.map.refuse_column(Ask::Speed, "a WAV file")?;
         let text = "neither a channel nor a sidecar file gives the speed; state a constant speed such as \"100 mm/s\"";
         inquiry.ask(Ask::Speed, &[], text.to_owned());
         RawTrack::Missing
@@ -87,6 +88,7 @@ pub(super) fn recording_of_wav(
     } else if let Some(trace) = &trace {
         on_clock(&trace.time_s, &trace.force_n, 1.0, n_samples, rate_hz)
     } else {
+        inquiry.map.refuse_column(Ask::Force, "a WAV file")?;
         let text = "neither a channel nor a sidecar file gives the normal force; state a constant force such as \"1 N\"";
         inquiry.ask(Ask::Force, &[], text.to_owned());
         RawTrack::Missing

@@ -4,6 +4,7 @@ use std::fmt;
 
 use shagreen_core::units::{MetersPerSecond, Newtons};
 
+use crate::recording::RecordingFileError;
 use crate::recording::column_map::{Channel, Column, ColumnMap, Separator};
 use crate::recording::units::{AccelerationUnit, ForceUnit, PositionUnit, SpeedUnit, TimeUnit};
 
@@ -29,7 +30,7 @@ pub enum Ask {
     AccelerationUnit,
     /// Acceleration of one ADC count of a table.
     PerCount,
-    /// Acceleration of a WAV sample of 1.0.
+    /// Acceleration of a WAV sample, or of an amplitude in a haptic clip, of 1.0.
     FullScale,
     /// The speed column, a constant speed, or the position columns to compute it from.
     Speed,
@@ -51,6 +52,8 @@ pub enum Ask {
     PressingIsNegative,
     /// Contents of the WAV channels.
     Channels,
+    /// Frequencies of 0 and of 1 in a haptic clip.
+    FrequencyRange,
 }
 
 /// A fact that a file does not state.
@@ -101,6 +104,7 @@ impl Ask {
         Self::ForceFullScale,
         Self::PressingIsNegative,
         Self::Channels,
+        Self::FrequencyRange,
     ];
 
     /// Returns the question that a key of the column map answers.
@@ -131,6 +135,7 @@ impl Ask {
             Self::ForceFullScale => "force_full_scale",
             Self::PressingIsNegative => "pressing_is_negative",
             Self::Channels => "channels",
+            Self::FrequencyRange => "frequency_range",
         }
     }
 }
@@ -179,8 +184,7 @@ impl ColumnMap {
                 Err(error("one to three columns, separated by commas".to_owned()))
             }
         };
-        let needs =
-            |example: &str| format!("a column, or a number of at least 0 with its unit, such as {example:?}");
+        let needs = |quantity: String| format!("a column, or {quantity}");
         match what {
             Ask::Separator => self.separator = named!(Separator),
             Ask::DecimalComma => self.decimal_comma = flag()?,
@@ -197,7 +201,9 @@ impl ColumnMap {
                     self.constant_speed = Some(MetersPerSecond(speed_mps));
                     self.speed = None;
                 }
-                None if is_bad_quantity(answer) => return Err(error(needs("100 mm/s"))),
+                None if is_bad_quantity(answer, |unit| SpeedUnit::parse(unit).is_some()) => {
+                    return Err(error(needs(speed_needs())));
+                }
                 None => {
                     self.speed = column()?;
                     self.constant_speed = None;
@@ -215,7 +221,9 @@ impl ColumnMap {
                     self.constant_force = Some(Newtons(force_n));
                     self.force = None;
                 }
-                None if is_bad_quantity(answer) => return Err(error(needs("1 N"))),
+                None if is_bad_quantity(answer, |unit| ForceUnit::parse(unit).is_some()) => {
+                    return Err(error(needs(force_needs())));
+                }
                 None => {
                     self.force = column()?;
                     self.constant_force = None;
@@ -230,9 +238,57 @@ impl ColumnMap {
                 let names: Vec<&str> = Channel::ALL.iter().map(|channel| channel.name()).collect();
                 self.channels = Some(channels.ok_or_else(|| one_of(&names))?);
             }
+            Ask::FrequencyRange => {
+                let range = frequency_range_hz(answer);
+                let needs = || error("two frequencies in Hz, the lower one first, such as 60-300".to_owned());
+                self.frequency_range_hz = Some(range.ok_or_else(needs)?);
+            }
         }
         Ok(())
     }
+
+    /// Returns an error if the answer to this question, speed or force, names a column, but the file has no columns. `file` names it.
+    pub(super) fn refuse_column(&self, what: Ask, file: &str) -> Result<(), RecordingFileError> {
+        let (column, needs) = match what {
+            Ask::Speed => (&self.speed, speed_needs()),
+            _ => (&self.force, force_needs()),
+        };
+        let given = match column {
+            Some(Column::Name(name)) => name.clone(),
+            Some(Column::Number(number)) => number.to_string(),
+            None => return Ok(()),
+        };
+        let problem = format!(
+            "{} is {given:?}, which could only be a column, but {file} has no columns; state {needs}",
+            what.key()
+        );
+        Err(RecordingFileError::Map { problem })
+    }
+}
+
+/// What a constant speed is.
+fn speed_needs() -> String {
+    constant_needs(SpeedUnit::ALL.iter().map(|unit| unit.name()), "100 mm/s")
+}
+
+/// What a constant force is.
+fn force_needs() -> String {
+    constant_needs(ForceUnit::ALL.iter().map(|unit| unit.name()), "1 N")
+}
+
+fn constant_needs(units: impl Iterator<Item = &'static str>, example: &str) -> String {
+    let units: Vec<&str> = units.collect();
+    format!("a number of at least 0 with its unit ({}), such as {example:?}", units.join(", "))
+}
+
+/// Parses two frequencies in Hz, such as `60-300`, `60 to 300 Hz` or `60,300`.
+fn frequency_range_hz(text: &str) -> Option<[f64; 2]> {
+    let text = text.trim_end_matches("Hz").trim_end();
+    let (low, high) =
+        text.split_once(" to ").or_else(|| text.split_once(',')).or_else(|| text.split_once('-'))?;
+    // What is no number is no answer.
+    let [low, high]: [f64; 2] = [low.trim().parse().ok()?, high.trim().parse().ok()?];
+    (low >= 0.0 && high > low && high.is_finite()).then_some([low, high])
 }
 
 /// Parses a non-negative number with its unit; returns the value in SI units.
@@ -243,11 +299,16 @@ fn quantity(text: &str, si: impl Fn(&str) -> Option<f64>) -> Option<f64> {
     Some(number * si(unit)?).filter(|value| value.is_finite())
 }
 
-/// Returns whether a text that is not a [`quantity`] looks like one: a number that is not a column number, or a number
-/// and a word.
-fn is_bad_quantity(text: &str) -> bool {
+/// Returns whether a text that is not a [`quantity`] looks like one: a number that is not a column number, a number and a word, or
+/// a number before a unit.
+fn is_bad_quantity(text: &str, is_unit: impl Fn(&str) -> bool) -> bool {
     if let Ok(number) = text.parse::<f64>() {
         return !text.parse::<usize>().is_ok_and(|place| place > 0) && !number.is_nan();
+    }
+    let end = text.find(|c: char| !c.is_ascii_digit() && !"+-.".contains(c)).unwrap_or(text.len());
+    let (number, unit) = text.split_at(end);
+    if number.parse::<f64>().is_ok() && is_unit(unit) {
+        return true;
     }
     let mut words = text.split_whitespace();
     words.next().is_some_and(|first| first.parse::<f64>().is_ok()) && words.count() == 1

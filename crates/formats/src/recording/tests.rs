@@ -2,6 +2,7 @@
 
 mod answers;
 mod channels;
+mod clips;
 mod dialects;
 mod overruled;
 

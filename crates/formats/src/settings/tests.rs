@@ -19,6 +19,7 @@ fn settings_come_back_and_what_is_none_is_told() {
     (settings.scale, settings.template) = (Some(1.5), Some("/b.shagreen".into()));
     settings.learned_hints = vec!["drag-point".to_owned()];
     settings.reduces_motion = Some(false);
+    settings.quality_model = Some("/lab.json".into());
     settings.panels.stage = Some(300.5);
     settings.studies.pixels_per_mm = Some(3.78);
     settings.studies.masking_output = Some("pulse:headphones".to_owned());
@@ -90,6 +91,7 @@ fn each_setting_is_read_on_its_own() {
         r#""photo_networks": {"network": "resnet-50"}"#,
         r#""studies": {"pixels_per_mm": 1e9}"#,
         r#""studies": 3"#,
+        r#""quality_model": 3"#,
     ] {
         let bytes = format!(r#"{{"rig": {{"output": "null"}}, "later": 3, {wrong}}}"#);
         let mut expected = Settings { rig: Some(rig.clone()), ..Settings::default() };
@@ -149,6 +151,7 @@ fn settings_of_two_windows_are_merged_by_key() {
     let none = PhotoNetworks { network: ImageNetwork::Statistics, heads: None };
     ours.photo_networks = Some(none.clone());
     ours.studies.pixels_per_mm = Some(4.0);
+    ours.quality_model = Some(path("/lab.json"));
     theirs.studies.masking_output = Some("theirs".to_owned());
     theirs.learned_hints = vec!["b".to_owned()];
     theirs.note_project(Path::new("/theirs"));
@@ -161,6 +164,7 @@ fn settings_of_two_windows_are_merged_by_key() {
     assert_eq!((both.reduces_motion, both.photo_networks), (Some(true), Some(none)));
     assert_eq!(both.learned_hints, ["a", "b"]);
     assert_eq!(both.studies.pixels_per_mm, Some(4.0));
+    assert_eq!(both.quality_model, Some(path("/lab.json")));
     assert_eq!(both.studies.masking_output.as_deref(), Some("theirs"));
     assert_eq!(merged(&base, &base, theirs.clone()), theirs);
     assert_eq!(merged(&base, &ours, base.clone()), ours);

@@ -9,6 +9,9 @@ use shagreen_formats::gallery::{GALLERY, GalleryProject};
 use shagreen_formats::hid_text::read_hid_text;
 use shagreen_formats::project::clipboard::{CopiedTexture, read_copied_texture, write_copied_texture};
 use shagreen_formats::project::{AuthoredTexture, Project, read_project, write_project};
+use shagreen_formats::quality_model::{
+    ModelFit, built_in_quality_model, read_quality_model, write_quality_model,
+};
 use shagreen_formats::settings::{KeptPrompt, Settings, read_settings, write_settings};
 use shagreen_formats::starter::starter_library;
 
@@ -102,6 +105,31 @@ pub(crate) fn read_an_actuator(bytes: &[u8]) -> Result<(), String> {
         Ok(again) if again == actuator => Ok(()),
         Ok(_) => Err("the written profile is another one".into()),
         Err(error) => Err(format!("the written profile cannot be read: {error}")),
+    }
+}
+
+pub(crate) fn quality_model_seeds() -> Vec<Vec<u8>> {
+    let built_in = built_in_quality_model().unwrap();
+    let mut fitted = built_in.clone();
+    fitted.fit = Some(ModelFit {
+        table_sha256: "ab".repeat(32),
+        n_pairs: 25,
+        n_textures: 5,
+        r_squared: Some(0.9),
+        nested_r_squared: None,
+        is_simulated: true,
+        tolerance: 0.2,
+        standard_errors: vec![Some(0.25), None, Some(1.5), Some(0.125)],
+    });
+    [built_in, fitted].iter().map(write_quality_model).collect()
+}
+
+pub(crate) fn read_a_quality_model(bytes: &[u8]) -> Result<(), String> {
+    let Ok(model) = read_quality_model(bytes) else { return Ok(()) };
+    match read_quality_model(&write_quality_model(&model)) {
+        Ok(again) if again == model => Ok(()),
+        Ok(again) => Err(format!("{model:?} became {again:?}")),
+        Err(error) => Err(format!("the written model cannot be read: {error}")),
     }
 }
 

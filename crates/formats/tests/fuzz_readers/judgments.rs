@@ -3,6 +3,7 @@
 use shagreen_core::space::LabelSource;
 use shagreen_formats::photo_table::read_photo_table;
 use shagreen_formats::places_csv::{Scale, read_places};
+use shagreen_formats::rated_pairs_csv::read_rated_pairs;
 use shagreen_formats::ratings_csv::{ratings_csv, read_ratings_csv, read_relevance_csv};
 use shagreen_formats::sorting_csv::{read_sorting_csv, sorting_csv};
 use shagreen_formats::texture_files::{TextureFileKind, read_texture_files};
@@ -43,6 +44,15 @@ pub(crate) fn photo_table_seeds() -> Vec<Vec<u8>> {
     let other =
         "file;cls;repo;licence;author;softness;softness_sd;note\nb/c.png;felt;x;MIT;A;70,5;9;by eye\n";
     [plain, other].map(|text| text.as_bytes().to_vec()).to_vec()
+}
+
+pub(crate) fn rated_pairs_seeds() -> Vec<Vec<u8>> {
+    let answers = "reference,comparison,n_same,n_different,n_trials_identical,n_different_on_identical,d_prime,simulated\n\
+        a.wav,b.wav,10,30,24,6,,0\n";
+    let trials = "reference;comparison;hits;n different;false alarms;n same;weight\na;b;30;40;6;24;2,5\n";
+    let distances =
+        "sep=,\nreference,comparison,texture,d_prime,roughness,envelope\n1,2,steel,0.7,\"0,5\",0.25\n";
+    [answers, trials, distances].map(|text| text.as_bytes().to_vec()).to_vec()
 }
 
 /// Small tables that request much memory or time: many columns, many lines, many names.
@@ -101,6 +111,18 @@ pub(crate) fn read_some_recordings(bytes: &[u8]) -> Result<(), String> {
     let recordings = read_texture_files(bytes, TextureFileKind::Recording).unwrap_or_default();
     let empty = recordings.iter().find(|of| of.texture.is_empty() || of.file.is_empty());
     empty.map_or(Ok(()), |recording| Err(format!("{recording:?}")))
+}
+
+/// All numbers of a pair can be fitted.
+pub(crate) fn read_some_rated_pairs(bytes: &[u8]) -> Result<(), String> {
+    let Ok(read) = read_rated_pairs(bytes) else { return Ok(()) };
+    let broken = read.value.rows.iter().find(|row| {
+        let mut distances = row.distances.iter().flat_map(|distances| distances.0);
+        let are_distances = distances.all(|distance| distance.is_finite() && distance >= 0.0);
+        let has_names = !(row.reference.is_empty() || row.comparison.is_empty() || row.texture.is_empty());
+        !(are_distances && has_names && row.d_prime.abs() <= 40.0 && row.weight > 0.0)
+    });
+    broken.map_or(Ok(()), |row| Err(format!("{row:?}")))
 }
 
 /// All indices and numbers of a table are possible.

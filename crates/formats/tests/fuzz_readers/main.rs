@@ -12,15 +12,21 @@
     reason = "a test may panic on an unexpected result, and reports what it did"
 )]
 
+mod batches;
+mod clips;
 mod documents;
+mod experiences;
+mod imports;
 mod judgments;
 mod memory;
 mod mutate;
 mod photos;
+mod pictures;
 mod readers;
 mod recordings;
 mod signals;
 mod studies;
+mod textures;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, Ordering};

@@ -10,13 +10,13 @@ const N_ROWS: u32 = 120;
 const TABLE_MAP: &str = "time_unit = \"ms\"\nacceleration_unit = \"g\"\nspeed_unit = \"mm/s\"\n\
     position_unit = \"mm\"\nforce_unit = \"N\"\npressing_is_negative = false\n";
 /// Answers to all questions about a WAV file with one or three channels.
-const WAV_MAP: &str = "acceleration_unit = \"m/s^2\"\nfull_scale = 20\nconstant_speed = \"100 mm/s\"\n\
+pub(crate) const WAV_MAP: &str = "acceleration_unit = \"m/s^2\"\nfull_scale = 20\nconstant_speed = \"100 mm/s\"\n\
     constant_force = \"1 N\"\n";
 /// Sidecar of a WAV file with five channels.
 const FIVE_CHANNELS: &str = r#"{"units": "g", "full_scale": 20, "channels": ["x", "y", "z", "speed", "force"],
     "speed_units": "mm/s", "speed_full_scale": 400, "force_units": "N", "force_full_scale": 5}"#;
 
-fn map(text: &str) -> ColumnMap {
+pub(crate) fn map(text: &str) -> ColumnMap {
     read_map(text.as_bytes()).unwrap()
 }
 
@@ -46,6 +46,10 @@ pub(crate) fn table_seeds() -> Vec<Vec<u8>> {
             format!("{i},{},{},{}", wave(i), slow(10, "80"), slow(7, "1.25"))
         }),
         table("", &|i| format!("{i}\t{}\t100\t0.5", wave(i))),
+        // An envelope, which becomes a signal.
+        table("time [s],amplitude,frequency\n", &|i| {
+            format!("{},{},{}", f64::from(i) * 0.01, wave(i), 60 + i)
+        }),
     ]
 }
 
@@ -201,7 +205,12 @@ pub(crate) fn read_a_map(bytes: &[u8]) -> Result<(), String> {
 }
 
 /// Reads a recording and resamples it uniformly; returns the violated property as an error.
-fn read_with(name: &str, bytes: &[u8], sidecar: Option<&[u8]>, map: &ColumnMap) -> Result<(), String> {
+pub(crate) fn read_with(
+    name: &str,
+    bytes: &[u8],
+    sidecar: Option<&[u8]>,
+    map: &ColumnMap,
+) -> Result<(), String> {
     let RecordingFile { raw, map, .. } = match read_recording(name, bytes, sidecar, map) {
         Ok(file) => file,
         Err(RecordingFileError::NeedsAnswers(needed)) => {

@@ -87,6 +87,16 @@ impl Architecture {
         Self { padding: Padding::Valid, pools: [2, 2], ..Self::paper320(n_outputs) }
     }
 
+    /// Returns the convolutional stream of [`Architecture::paper320`] alone (1D-CNN).
+    pub fn convolutions(n_outputs: usize) -> Self {
+        Self { streams: Streams::Convolutions, ..Self::paper320(n_outputs) }
+    }
+
+    /// Returns the LSTM stream of [`Architecture::paper320`] alone.
+    pub fn memory(n_outputs: usize) -> Self {
+        Self { streams: Streams::Memory, ..Self::paper320(n_outputs) }
+    }
+
     /// Returns the serial CNN-LSTM: convolutions and pooling of the paper's text, whose 44 outputs of 32 filters the
     /// LSTM layers read. The paper states no sizes of its rivals, so the layers are those of its own network.
     pub fn serial(n_outputs: usize) -> Self {

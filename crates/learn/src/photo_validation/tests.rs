@@ -69,9 +69,11 @@ fn deviations_are_scaled_to_the_errors_of_the_chosen_photos() {
         // Classes that were left out have larger errors.
         assert!(mean > before, "{mean} {before}");
         before = mean;
-        // The labels of roughness are uncertain by 12 points themselves.
-        let rough = validation.errors(0, &|_| true);
-        assert!(rough.iter().all(|error| error.squared >= 144.0));
+        // The error is that against the label, and nothing else.
+        for (error, judged) in validation.errors(0, &|_| true).iter().zip(&judged) {
+            let label = set.classes[set.photos[judged.photo].class].rough_smooth;
+            assert_eq!(error.squared, (judged.of.rough_smooth.mean - label).powi(2));
+        }
     }
 }
 

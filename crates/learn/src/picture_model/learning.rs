@@ -1,21 +1,23 @@
-//! Training of one head.
+//! Training of one network on pictures: a head, or a rival.
 
 use candle_core::{Device, Tensor};
 use shagreen_core::maths::rng::{Random, derive_seed};
 use shagreen_core::maths::statistics::mean;
 
 use super::PictureConfig;
-use crate::dense_stack::{fresh, run};
 use crate::model_file::Numbers;
 use crate::parameters::{Adam, AdamConfig, Parameters};
 
-/// A head in training.
+/// Returns the outputs of a network with these parameters (rows × labels) for rows of inputs.
+pub(super) type Network<'a> = dyn Fn(&Parameters, &Tensor) -> Result<Tensor, candle_core::Error> + 'a;
+
+/// A network in training.
 pub(super) struct Learning<'a> {
     rows: &'a [Vec<f32>],
     labels: &'a [Vec<f32>],
     learned: Vec<usize>,
     aside: Vec<usize>,
-    n_layers: usize,
+    network: &'a Network<'a>,
     parameters: Parameters,
     adam: Option<Adam>,
     random: Random,
@@ -27,24 +29,24 @@ pub(super) struct Learning<'a> {
 }
 
 impl<'a> Learning<'a> {
+    /// Training of a network that begins with these parameters.
     pub(super) fn new(
         rows: &'a [Vec<f32>],
         labels: &'a [Vec<f32>],
-        sizes: &[usize],
+        (network, parameters): (&'a Network<'a>, Parameters),
         seed: u64,
         device: &'a Device,
     ) -> Result<Self, candle_core::Error> {
         let mut random = Random::new(derive_seed(seed, "order"));
         let order = random.shuffled(rows.len());
         let (aside, learned) = order.split_at(rows.len().div_ceil(10));
-        let parameters = fresh(sizes, derive_seed(seed, "weights"), device)?;
         let best = parameters.snapshot()?;
         Ok(Self {
             rows,
             labels,
             learned: learned.to_vec(),
             aside: aside.to_vec(),
-            n_layers: sizes.len() - 1,
+            network,
             parameters,
             adam: None,
             random,
@@ -72,7 +74,7 @@ impl<'a> Learning<'a> {
             }
             let all: Vec<usize> = (0..labels.len()).collect();
             let y = tensor(&labels, &all, self.device)?;
-            let error = (run(&self.parameters, &x, self.n_layers)? - y)?.sqr()?.mean_all()?;
+            let error = ((self.network)(&self.parameters, &x)? - y)?.sqr()?.mean_all()?;
             // The offset keeps the gradient of the square root finite at zero error.
             let gradients = (error + 1e-12)?.sqrt()?.backward()?;
             adam.step(&self.parameters, &gradients)?;
@@ -93,7 +95,7 @@ impl<'a> Learning<'a> {
     fn aside_errors(&self) -> Result<Vec<Vec<f32>>, candle_core::Error> {
         let x = tensor(self.rows, &self.aside, self.device)?;
         let y = tensor(self.labels, &self.aside, self.device)?;
-        (run(&self.parameters, &x, self.n_layers)? - y)?.to_vec2()
+        ((self.network)(&self.parameters, &x)? - y)?.to_vec2()
     }
 
     /// Returns the best parameters and their validation errors.
@@ -105,7 +107,11 @@ impl<'a> Learning<'a> {
 }
 
 /// Returns the selected rows as a tensor.
-fn tensor(rows: &[Vec<f32>], indices: &[usize], device: &Device) -> Result<Tensor, candle_core::Error> {
+pub(super) fn tensor(
+    rows: &[Vec<f32>],
+    indices: &[usize],
+    device: &Device,
+) -> Result<Tensor, candle_core::Error> {
     let values: Vec<f32> = indices.iter().flat_map(|index| rows[*index].iter().copied()).collect();
     let n_columns = rows.first().map_or(0, Vec::len);
     Tensor::from_vec(values, (indices.len(), n_columns), device)

@@ -21,7 +21,7 @@ pub(crate) fn photo_set() -> PhotoSet {
         name: name.to_owned(),
         hard_soft,
         hard_soft_sd: 7.0,
-        rough_smooth: 40.0,
+        rough_smooth: 100.0 - hard_soft,
         rough_smooth_sd: 12.0,
     };
     let photo = |index: usize| {

@@ -6,9 +6,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, bail};
 use shagreen_formats::library::{Library, Provenance, TextureEntry, free_id, id_from_name};
 
-use super::{ExportFormat, ExportOutcome, restriction_of};
+use super::{
+    ExportContext, ExportFormat, ExportOutcome, model_files, refuse_foreign_model, restriction_of,
+    warn_of_stale,
+};
 use crate::figure_files::write_together;
-use crate::replace::refuse_foreign;
 use crate::report::Reporter;
 
 /// Folder and rules of an export of several textures.
@@ -18,13 +20,13 @@ pub struct Batch<'a> {
     pub folder: &'a Path,
     /// Whether files of the same format are replaced.
     pub replaces: bool,
-    /// Name and version of the program, for the files.
-    pub created_by: &'a str,
+    /// What the files hold beside the textures.
+    pub context: ExportContext<'a>,
 }
 
 /// Several files exist and may not be replaced.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{n_existing} of the {n} files exist already; choose another folder: {}", .first.display())]
+#[error("{}; choose another name or folder: {}", existing(*.n_existing, *.n), .first.display())]
 pub struct ExistingFiles {
     /// Number of files that exist.
     pub n_existing: usize,
@@ -32,6 +34,15 @@ pub struct ExistingFiles {
     pub n: usize,
     /// The first file that exists.
     pub first: PathBuf,
+}
+
+/// How many of the files exist, as the begin of an error.
+fn existing(n_existing: usize, n: usize) -> String {
+    if n == 1 {
+        "this file exists already".to_owned()
+    } else {
+        format!("{n_existing} of the {n} files exist already")
+    }
 }
 
 /// Returns the paths of files with these names in a folder. No two are the same: names that can be those of files stay as they
@@ -59,7 +70,37 @@ pub fn paths_in<S: AsRef<str>>(
     ids.map(|id| folder.join(id).with_extension(ending)).collect()
 }
 
-/// Writes the models of textures to these paths, in the same order: all or none. `folder` is created if it does not exist.
+/// Checks the folder of several files.
+///
+/// # Errors
+/// It is a file.
+pub fn check_folder(folder: &Path) -> anyhow::Result<()> {
+    if folder.exists() && !folder.is_dir() {
+        bail!(
+            "several textures are written into a folder, but this is a file; choose another folder: {}",
+            folder.display()
+        );
+    }
+    Ok(())
+}
+
+/// Checks that no file exists at these paths, unless files may be replaced.
+///
+/// # Errors
+/// Files exist.
+pub fn refuse_existing(paths: &[PathBuf], replaces: bool) -> Result<(), ExistingFiles> {
+    let mut existing = paths.iter().filter(|path| path.exists());
+    match existing.next().filter(|_| !replaces) {
+        None => Ok(()),
+        Some(first) => {
+            let n_existing = 1 + existing.count();
+            Err(ExistingFiles { n_existing, n: paths.len(), first: first.clone() })
+        }
+    }
+}
+
+/// Writes the models of textures to these paths, in the same order, and to files beside them if the format has several: all or
+/// none. `folder` is created if it does not exist. Returns the paths of the files of each texture.
 ///
 /// # Errors
 /// The format cannot represent a texture, which the message names, or a file cannot be written.
@@ -67,19 +108,23 @@ pub fn write_models(
     entries: &[TextureEntry],
     paths: &[PathBuf],
     format: &dyn ExportFormat,
-    created_by: &str,
+    context: &ExportContext<'_>,
     folder: Option<&Path>,
-) -> anyhow::Result<()> {
-    let mut files = Vec::with_capacity(paths.len());
+) -> anyhow::Result<Vec<Vec<PathBuf>>> {
+    let (mut files, mut written) = (Vec::with_capacity(paths.len()), Vec::with_capacity(paths.len()));
     for (entry, path) in entries.iter().zip(paths) {
-        let bytes = format.bytes(entry, created_by).with_context(|| format!("\"{}\"", entry.name))?;
-        files.push((path.clone(), bytes));
+        let of_texture = model_files(entry, format, path, context);
+        let of_texture = of_texture.with_context(|| format!("\"{}\"", entry.name))?;
+        written.push(of_texture.iter().map(|(path, _)| path.clone()).collect());
+        files.extend(of_texture);
     }
-    write_together(&files, folder)
+    write_together(&files, folder)?;
+    Ok(written)
 }
 
-/// Writes textures of a library into a folder, each to a file that is named after its id ([`paths_in`]). Returns an outcome for
-/// each texture, in their order. Each property that files cannot hold is reported once.
+/// Writes textures of a library into a folder, each to a file that is named after its id ([`paths_in`]), and to files beside it
+/// if the format has several. Returns an outcome for each texture, in their order. Each property that files cannot hold is
+/// reported once.
 ///
 /// # Errors
 /// There is no texture, the folder is a file, a file of another kind has one of the names, a file of the same format has one
@@ -92,37 +137,33 @@ pub fn export_all(
     batch: &Batch<'_>,
     reporter: &dyn Reporter,
 ) -> anyhow::Result<Vec<ExportOutcome>> {
-    let Batch { folder, replaces, created_by } = *batch;
+    let Batch { folder, replaces, ref context } = *batch;
     if entries.is_empty() {
         bail!("there is no texture to export; choose another library");
     }
-    if folder.exists() && !folder.is_dir() {
-        bail!(
-            "several textures are written into a folder, but this is a file; choose another folder: {}",
-            folder.display()
-        );
-    }
+    check_folder(folder)?;
     let paths = paths_in(folder, entries.iter().map(|entry| &entry.id), format.ending());
     for path in &paths {
-        refuse_foreign(path, format.name(), |bytes| format.is_like(bytes))?;
+        refuse_foreign_model(format, path)?;
     }
-    let existing: Vec<&PathBuf> = paths.iter().filter(|path| path.exists()).collect();
-    if let Some(first) = existing.first().filter(|_| !replaces) {
-        let first = PathBuf::clone(first);
-        return Err(ExistingFiles { n_existing: existing.len(), n: paths.len(), first }.into());
-    }
+    refuse_existing(&paths, replaces)?;
     let restricted = entries.iter().filter(|entry| entry.provenance == Provenance::Restricted);
     if let Some(warning) = Provenance::warning(&restricted.map(|entry| &*entry.name).collect::<Vec<_>>()) {
         reporter.warn(&warning);
     }
-    write_models(entries, &paths, format, created_by, Some(folder))?;
-    let outcome = |(entry, path): (&TextureEntry, PathBuf)| ExportOutcome {
-        files: vec![path],
+    // A file does not carry the library along.
+    let with_terms: Vec<TextureEntry> = entries.iter().map(|entry| library.with_terms(entry)).collect();
+    let written = write_models(&with_terms, &paths, format, context, Some(folder))?;
+    for (path, written) in paths.iter().zip(&written) {
+        warn_of_stale(format, path, written, reporter);
+    }
+    let outcome = |(entry, files): (&TextureEntry, Vec<PathBuf>)| ExportOutcome {
+        files,
         lost: format.lost(entry),
         license: library.license_of(entry).to_owned(),
         warnings: restriction_of(entry).into_iter().collect(),
     };
-    let outcomes: Vec<ExportOutcome> = entries.iter().zip(paths).map(outcome).collect();
+    let outcomes: Vec<ExportOutcome> = entries.iter().zip(written).map(outcome).collect();
     for lost in all_lost(&outcomes) {
         reporter.note(&format!("not stored in the files: {lost}"));
     }
@@ -143,9 +184,9 @@ pub fn all_lost(outcomes: &[ExportOutcome]) -> Vec<&str> {
 #[cfg(test)]
 mod tests {
     use super::{Batch, ExistingFiles, all_lost, export_all, paths_in};
-    use crate::export::FORMATS;
+    use crate::export::test_support::library_with_heights;
+    use crate::export::{ExportContext, FORMATS, model_paths};
     use crate::report::Warnings;
-    use shagreen_formats::starter::starter_library;
     use std::path::Path;
 
     #[test]
@@ -160,19 +201,20 @@ mod tests {
 
     #[test]
     fn all_textures_are_written_or_none() {
-        let library = starter_library().unwrap();
+        let library = library_with_heights();
         let entries = &library.textures[..3];
         for format in FORMATS {
             let parent = tempfile::tempdir().unwrap();
             let folder = parent.path().join("made");
             let export = |replaces: bool| {
-                let batch = Batch { folder: &folder, replaces, created_by: "test" };
+                let batch = Batch { folder: &folder, replaces, context: ExportContext::new("test") };
                 export_all(&library, entries, format, &batch, &Warnings::default())
             };
             let outcomes = export(false).unwrap();
             assert_eq!(outcomes.len(), 3);
             for (outcome, entry) in outcomes.iter().zip(entries) {
-                assert_eq!(outcome.files, [folder.join(&entry.id).with_extension(format.ending())]);
+                let path = folder.join(&entry.id).with_extension(format.ending());
+                assert_eq!(outcome.files, model_paths(format, &path));
                 assert_eq!(outcome.lost, format.lost(entry));
                 assert!(outcome.files[0].is_file() && !outcome.license.is_empty());
             }
@@ -188,7 +230,9 @@ mod tests {
             // A file of another kind is never replaced, and then no other file is written.
             let path = &outcomes[2].files[0];
             std::fs::write(path, "my notes").unwrap();
-            std::fs::remove_file(&outcomes[0].files[0]).unwrap();
+            for file in &outcomes[0].files {
+                std::fs::remove_file(file).unwrap();
+            }
             assert!(export(true).unwrap_err().to_string().contains("would replace"));
             assert_eq!(std::fs::read(path).unwrap(), b"my notes");
             assert!(!outcomes[0].files[0].exists());

@@ -12,6 +12,7 @@
 mod made;
 mod profiles;
 mod signals;
+mod waveforms;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -28,6 +29,7 @@ use crate::study::textures::StudyTextures;
 pub use made::StimulusSound;
 pub use profiles::PROFILE_LEVEL_MPS2;
 pub use signals::{SIGNAL_CONTACT, SIGNAL_SECS};
+pub use waveforms::Waveforms;
 
 use self::signals::SignalMaker;
 
@@ -201,13 +203,17 @@ impl Maker<'_> {
         stimulus: &Stimulus,
         n_segments: usize,
     ) -> anyhow::Result<Vec<StimulusSound>> {
+        signals::segments(&self.waveform(name, stimulus)?, n_segments)
+    }
+
+    /// A texture as a signal in m/s² at the rate of the codec, without the level of the stimulus.
+    fn waveform(&self, name: &str, stimulus: &Stimulus) -> anyhow::Result<Vec<f64>> {
         let signal = self.signals.of(&self.live(name, stimulus.variant)?, name)?;
-        let processed = match stimulus.variant {
+        Ok(match stimulus.variant {
             Variant::Original | Variant::Authored => signal,
             Variant::Coded { kbps } => self.signals.coded(&signal, kbps)?,
             Variant::Reconstructed { window_mm } => signals::reconstructed(&signal, window_mm)?,
-        };
-        signals::segments(&processed, n_segments)
+        })
     }
 }
 

@@ -1,6 +1,8 @@
 //! Validation of the data of a texture.
 
-use super::{Along, Excitation, MAX_ORDER, NO_NEIGHBOR, Node, Parts, TextureError, Triangle};
+use super::{
+    Along, Excitation, MAX_MA_ORDER, MAX_NODES, MAX_ORDER, NO_NEIGHBOR, Node, Parts, TextureError, Triangle,
+};
 use crate::stick_slip::Friction;
 
 /// Checks the data of a texture. Relief and height map were checked when they were made.
@@ -8,7 +10,7 @@ pub(super) fn parts(parts: &Parts<'_>) -> Result<(), TextureError> {
     let Parts { rate_hz, order, ma_order, speed_max_mps, force_max_n, nodes, excitations, .. } = *parts;
     let positive = |x: f32| x.is_finite() && x > 0.0;
     let is_published = !excitations.is_empty();
-    if order == 0 || order > MAX_ORDER || ma_order > MAX_ORDER || (ma_order > 0 && !is_published) {
+    if order == 0 || order > MAX_ORDER || ma_order > MAX_MA_ORDER || (ma_order > 0 && !is_published) {
         return Err(TextureError::Order);
     }
     if !(positive(rate_hz) && positive(speed_max_mps) && positive(force_max_n)) {
@@ -49,7 +51,7 @@ fn plane(nodes: &[Node], triangles: &[Triangle], order: usize) -> Result<(), Tex
         return Err(TextureError::Number);
     }
     let n_triangles = triangles.len();
-    if n_triangles == 0 || n_triangles >= usize::from(NO_NEIGHBOR) {
+    if nodes.len() > MAX_NODES || n_triangles == 0 || n_triangles >= usize::from(NO_NEIGHBOR) {
         return Err(TextureError::Triangle);
     }
     for triangle in triangles {

@@ -1,6 +1,7 @@
 extern crate std;
 use super::{
-    Along, Evaluated, Excitation, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, TextureError, Triangle,
+    Along, Evaluated, Excitation, MAX_MA_ORDER, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, TextureError,
+    Triangle,
 };
 use crate::contact::{Contact, Place};
 use crate::direction::Direction;
@@ -113,7 +114,7 @@ fn broken_slices_are_refused() {
         Texture::new(Parts { rate_hz: rate, order, ..parts(nodes, triangles) }).err()
     };
     assert_eq!(error(1000.0, 0, &nodes, &triangles), Some(TextureError::Order));
-    assert_eq!(error(1000.0, 33, &nodes, &triangles), Some(TextureError::Order));
+    assert_eq!(error(1000.0, MAX_ORDER + 1, &nodes, &triangles), Some(TextureError::Order));
     assert_eq!(error(f32::NAN, 2, &nodes, &triangles), Some(TextureError::Range));
     assert_eq!(error(1000.0, 2, &nodes, &[]), Some(TextureError::Triangle));
     assert_eq!(error(1000.0, 2, &nodes[..2], &triangles), Some(TextureError::Triangle));
@@ -128,7 +129,7 @@ fn broken_slices_are_refused() {
 /// Excitations for the four nodes of the square, with a moving average of order 1.
 fn published(variances: [f32; 4], gains: [f32; 4]) -> [Excitation; 4] {
     core::array::from_fn(|i| {
-        let mut ma_lsf = [0.0; MAX_ORDER];
+        let mut ma_lsf = [0.0; MAX_MA_ORDER];
         ma_lsf[0] = 1.0 + 0.2 * i as f32;
         Excitation { variance: variances[i], gain: gains[i], ma_lsf }
     })

@@ -39,13 +39,15 @@ impl DevicesSheet {
             return;
         }
         let Some(mounted) = self.rig.mounted.clone() else {
-            row(ui, strings::FULL_SCALE, |ui| {
-                let value = DragValue::new(&mut self.rig.full_scale_mps2).range(FULL_SCALES_MPS2).speed(0.1);
-                let value = value.suffix(" m/s²");
-                ui.add(value).accessible_name(strings::FULL_SCALE).on_hover_text(strings::FULL_SCALE_HELP);
-            });
+            self.full_scale_ui(ui);
             return;
         };
+        if mounted.actuator().is_proportional() {
+            self.full_scale_ui(ui);
+            note(ui, strings::PROPORTIONAL);
+            note(ui, &mounted.actuator().source);
+            return;
+        }
         row(ui, strings::VOLTS, |ui| {
             let value = DragValue::new(&mut self.rig.full_scale_volts).range(FULL_SCALES_VOLTS).speed(0.01);
             ui.add(value.suffix(" V")).accessible_name(strings::VOLTS).on_hover_text(strings::VOLTS_HELP);
@@ -79,6 +81,14 @@ impl DevicesSheet {
             warning(ui, &text.to_string());
         }
         note(ui, &actuator.source);
+    }
+
+    fn full_scale_ui(&mut self, ui: &mut Ui) {
+        row(ui, strings::FULL_SCALE, |ui| {
+            let value = DragValue::new(&mut self.rig.full_scale_mps2).range(FULL_SCALES_MPS2).speed(0.1);
+            let value = value.suffix(" m/s²");
+            ui.add(value).accessible_name(strings::FULL_SCALE).on_hover_text(strings::FULL_SCALE_HELP);
+        });
     }
 
     fn choice_ui(&mut self, ui: &mut Ui) {

@@ -2,6 +2,7 @@
 
 use egui::{Button, Color32, ComboBox, DragValue, ProgressBar, Response, Ui};
 use shagreen_device::status::LinkState;
+use shagreen_studio::driven_channels::channel_name;
 
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::command::Command;
@@ -42,12 +43,14 @@ impl DevicesSheet {
         });
         row(ui, strings::CHANNELS, |ui| {
             let n_channels = session.stream().map_or(CHANNELS, |(_, channels, _)| usize::from(channels));
-            let name =
-                |channel: Option<usize>| channel.map_or(strings::FIRST_TWO.to_owned(), strings::channel);
-            let combo = ComboBox::from_id_salt("channels").width(210.0).selected_text(name(self.rig.channel));
+            let all = std::iter::once(None).chain((0..n_channels).map(Some));
+            let choices: Vec<_> =
+                all.map(|channel| (channel, self.channel_label(channel, n_channels))).collect();
+            let chosen = self.channel_label(self.rig.channel, n_channels);
+            let combo = ComboBox::from_id_salt("channels").width(210.0).truncate().selected_text(chosen);
             let shown = combo.show_list(ui, |ui| {
-                for channel in std::iter::once(None).chain((0..n_channels).map(Some)) {
-                    ui.selectable_value(&mut self.rig.channel, channel, name(channel));
+                for (channel, label) in choices {
+                    ui.selectable_value(&mut self.rig.channel, channel, label);
                 }
             });
             shown.response.accessible_name(strings::CHANNELS).on_hover_text(strings::CHANNELS_HELP);
@@ -55,12 +58,39 @@ impl DevicesSheet {
         if let Some((rate_hz, channels, block_frames)) = session.stream() {
             note(ui, &strings::stream(rate_hz, channels, block_frames));
         }
+        if let Some(reading) = session.haptic_reading() {
+            let now = reading.now;
+            note(
+                ui,
+                &now.waveform.map_or(strings::HAPTIC_PEN_SILENT.to_owned(), |waveform| {
+                    strings::haptic_pen(waveform.name(), now.intensity_percent)
+                }),
+            );
+        }
         if let Some(message) = session.output_message() {
             warning(ui, message);
         }
         meters_ui(ui, session);
         commands.extend(self.tone_ui(ui, session));
         commands
+    }
+
+    /// Label of the driven channels: the only one with its name if it has one, or with `None` the usual ones.
+    fn channel_label(&self, channel_idx: Option<usize>, n_channels: usize) -> String {
+        let actuator = self.rig.actuator();
+        match channel_idx {
+            Some(channel_idx) => match channel_name(actuator, n_channels, channel_idx) {
+                Some(name) => strings::named_channel(channel_idx, name),
+                None => strings::channel(channel_idx),
+            },
+            None => match actuator.map(|actuator| actuator.channels.as_slice()) {
+                None | Some([]) => strings::FIRST_TWO.to_owned(),
+                Some(named) => {
+                    let names: Vec<&str> = named.iter().map(|channel| channel.name.as_str()).collect();
+                    names.join(", ")
+                }
+            },
+        }
     }
 
     fn tone_ui(&mut self, ui: &mut Ui, session: &Session) -> Option<Command> {

@@ -2,6 +2,10 @@
 
 use egui::{ComboBox, DragValue, Slider, Ui};
 use egui_plot::{Line, Plot, PlotPoints, Points};
+use shagreen_device::hid::choice::AUTOMATIC_ID;
+use shagreen_device::pen_backend::Provides;
+use shagreen_device::stylus::StylusInfo;
+use shagreen_studio::pen_backends::{backend_name, provided};
 
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::command::Command;
@@ -27,12 +31,15 @@ impl DevicesSheet {
         }
         let facts = session.pen_facts();
         if let Some(facts) = facts {
-            note(ui, &format!("{} {}", facts.name, strings::PEN_READ));
+            let (backend, provided) = (backend_name(facts.backend), provided(&facts.provides));
+            note(ui, &strings::pen_read(&facts.name, backend, &provided));
             if facts.size_m.is_none() {
                 warning(ui, strings::NO_SIZE);
             } else if facts.is_size_doubtful {
                 warning(ui, strings::DOUBTFUL_SIZE);
             }
+        } else {
+            note(ui, &strings::window_pointer(&provided(&Provides::WINDOW)));
         }
         if self.rig.pen.is_some()
             && (self.rig.pen_size_mm.is_some()
@@ -57,14 +64,25 @@ impl DevicesSheet {
 
     fn pen_choice_ui(&mut self, ui: &mut Ui, session: &Session) -> Option<Command> {
         let pens = session.pens();
-        let name_of = |id: &str| pens.iter().find(|p| p.id == id).map_or(id.to_owned(), |p| p.name.clone());
+        let label = |pen: &StylusInfo| strings::pen_choice(&pen.name, backend_name(pen.backend));
+        let name_of = |id: &str| match pens.iter().find(|pen| pen.id == id) {
+            Some(pen) => label(pen),
+            None if id == AUTOMATIC_ID => strings::AUTOMATIC.to_owned(),
+            None => id.to_owned(),
+        };
         let chosen = self.rig.pen.as_deref().map_or(strings::MOUSE_ONLY.to_owned(), name_of);
         let combo = ComboBox::from_id_salt("pen").width(260.0).truncate().selected_text(chosen);
         let shown = combo.show_list(ui, |ui| {
+            let automatic = Some(AUTOMATIC_ID.to_owned());
+            ui.selectable_value(&mut self.rig.pen, automatic, strings::AUTOMATIC);
             ui.selectable_value(&mut self.rig.pen, None, strings::MOUSE_ONLY);
             for pen in pens {
-                let label = ui.selectable_value(&mut self.rig.pen, Some(pen.id.clone()), &pen.name);
-                label.on_hover_text(&pen.id);
+                let row = ui.selectable_value(&mut self.rig.pen, Some(pen.id.clone()), label(pen));
+                let told = format!("{}\n{}", pen.id, provided(&pen.provides));
+                let advice = pen.advice.iter().map(String::as_str);
+                row.on_hover_text(
+                    std::iter::once(told.as_str()).chain(advice).collect::<Vec<_>>().join("\n"),
+                );
             }
         });
         // Listed again, because a device may have been connected since.

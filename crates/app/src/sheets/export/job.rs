@@ -7,9 +7,11 @@ use std::sync::Arc;
 use shagreen_core::units::Hertz;
 use shagreen_formats::bounded_file::{self, FileKind};
 use shagreen_formats::library::{Provenance, TextureEntry};
-use shagreen_formats::wav::sidecar_path;
 use shagreen_formats::wav_encoding::Level;
-use shagreen_studio::export::{ExportFormat, Rendered, WAV, lost_in_wav, paths_in, write_models};
+use shagreen_studio::export::{
+    ExportContext, ExportFormat, Rendered, SignalFormat, model_paths, path_of, paths_in,
+    shared_full_scale_mps2, write_models,
+};
 use shagreen_studio::file::one_line;
 
 use crate::session::authored_sources::AuthoredSources;
@@ -29,8 +31,8 @@ pub(super) enum What {
 
 /// Format of the files, with its options.
 pub(super) enum Format {
-    /// Signals.
-    Wav(SignalOptions),
+    /// Signals of a stroke.
+    Signal(&'static dyn SignalFormat, SignalOptions),
     /// Texture models.
     Model(&'static dyn ExportFormat),
 }
@@ -86,8 +88,8 @@ impl Job {
     pub(super) fn summary(&self) -> Result<Summary, String> {
         let mut summary = Summary { lost: self.lost_of_paths().into_iter().collect(), ..Summary::default() };
         match &self.format {
-            Format::Wav(options) => {
-                if self.scales_several(options) && !options.shares_scale {
+            Format::Signal(format, options) => {
+                if self.scales_several(*format, options) && !options.shares_scale {
                     summary.lost.push(strings::LEVELS_LOST.to_owned());
                 }
                 let texture = match &self.what {
@@ -98,12 +100,15 @@ impl Job {
                     let follows_stroke = options.follows_stroke && signal.stroke.is_some();
                     let rate = Hertz(f64::from(options.rate_hz));
                     let rendered = Rendered { texture, tap: signal.tap, rate, follows_stroke };
-                    add(&mut summary.lost, lost_in_wav(rendered));
+                    add(&mut summary.lost, format.lost(rendered));
                     add(&mut summary.restricted, signal.restricted);
                 }
             }
             Format::Model(format) => {
                 for entry in self.entries()? {
+                    if let Some(reason) = format.refusal(&entry) {
+                        return Err(reason);
+                    }
                     add(&mut summary.lost, format.lost(&entry));
                     if entry.provenance == Provenance::Restricted {
                         add(&mut summary.restricted, [entry.name]);
@@ -123,38 +128,43 @@ impl Job {
                 (!names.is_empty()).then(|| strings::paths_lost(&names))
             }
             What::Audible(audible) => {
-                let plays = audible.plays_path() && matches!(self.format, Format::Wav(_));
+                let plays = audible.plays_path() && matches!(self.format, Format::Signal(..));
                 (audible.has_path && !plays).then(|| strings::PATH_LOST.to_owned())
             }
         }
     }
 
-    /// Whether several signals are scaled to peaks.
-    fn scales_several(&self, options: &SignalOptions) -> bool {
-        matches!(self.what, What::All(_)) && options.encoding.level == Level::Peak
+    /// Whether several signals are scaled.
+    fn scales_several(&self, format: &dyn SignalFormat, options: &SignalOptions) -> bool {
+        let is_scaled = !format.stores_samples() || options.encoding.level == Level::Peak;
+        matches!(self.what, What::All(_)) && is_scaled
     }
 
-    /// Acceleration in m/s² of a sample of 1 that all signals share; `None` if each has its own.
+    /// Acceleration in m/s² at full scale that all signals share; `None` if each has its own.
     ///
     /// # Errors
     /// A signal cannot be rendered.
-    fn shared_scale(&self, signals: &[SignalFile], options: &SignalOptions) -> Result<Option<f64>, String> {
-        if !(self.scales_several(options) && options.shares_scale) {
+    fn shared_scale(
+        &self,
+        signals: &[SignalFile],
+        format: &dyn SignalFormat,
+        options: &SignalOptions,
+    ) -> Result<Option<f64>, String> {
+        if !(self.scales_several(format, options) && options.shares_scale) {
             return Ok(None);
         }
         // Rendered once more when it is written: all samples at once may not fit into memory.
-        let mut peak_mps2 = 0.0_f32;
+        let mut each = Vec::with_capacity(signals.len());
         for signal in signals {
-            let samples = signal.samples(options)?;
-            peak_mps2 = samples.iter().fold(peak_mps2, |peak, x| peak.max(x.abs()));
+            each.push(signal.full_scale_mps2(format, options)?);
         }
-        Ok(Some(options.encoding.full_scale(&[peak_mps2])))
+        Ok(Some(shared_full_scale_mps2(each)))
     }
 
     /// Signal of the Signals workspace that is exported.
     pub(super) fn bench_signal(&self) -> Option<Arc<BenchSignal>> {
         match (&self.what, &self.format) {
-            (What::Audible(audible), Format::Wav(_)) => match &audible.signal.as_ref().ok()?.sounding {
+            (What::Audible(audible), Format::Signal(..)) => match &audible.signal.as_ref().ok()?.sounding {
                 Sounding::Bench(signal) => Some(Arc::clone(signal)),
                 Sounding::Mix(..) | Sounding::Path(_) => None,
             },
@@ -166,7 +176,7 @@ impl Job {
     fn paths(&self) -> Vec<PathBuf> {
         let What::All(sources) = &self.what else { return vec![self.path.clone()] };
         let ending = match &self.format {
-            Format::Wav(_) => WAV.ending,
+            Format::Signal(format, _) => format.ending(),
             Format::Model(format) => format.ending(),
         };
         paths_in(&self.path, sources.names(), ending)
@@ -180,31 +190,51 @@ impl Job {
         let mut existing = Vec::new();
         for path in paths {
             let refused = |path: &Path| strings::not_replaced(&path.display().to_string());
-            if matches!(self.format, Format::Wav(_)) && !SignalFile::may_lie_beside(path) {
-                return Err(refused(&sidecar_path(path)));
+            for beside in self.beside(path) {
+                if beside.symlink_metadata().is_ok() && !self.may_replace(&beside)? {
+                    return Err(refused(&beside));
+                }
             }
             if path.symlink_metadata().is_err() {
+                if let Format::Model(format) = &self.format
+                    && let Some(beside) = model_paths(*format, path).iter().find(|beside| beside.exists())
+                {
+                    return Err(refused(beside));
+                }
                 continue;
             }
             existing.push(path.clone());
-            let bytes = bounded_file::read(path, FileKind::Recording)
-                .map_err(|error| import::cannot_be_checked(&error.to_string()))?;
-            let is_like = match &self.format {
-                Format::Wav(_) => SignalFile::may_replace(path, &bytes),
-                Format::Model(format) => format.is_like(&bytes),
-            };
-            if !is_like {
+            if !self.may_replace(path)? {
                 return Err(refused(path));
             }
         }
         Ok(existing)
     }
 
+    /// Files of a signal that may be written beside the one at `path`.
+    fn beside(&self, path: &Path) -> Vec<PathBuf> {
+        let Format::Signal(format, _) = &self.format else { return Vec::new() };
+        format.suffixes(false).iter().skip(1).map(|suffix| path_of(*format, path, suffix)).collect()
+    }
+
+    /// Whether a file may be replaced: one of the same format.
+    ///
+    /// # Errors
+    /// It cannot be read.
+    fn may_replace(&self, path: &Path) -> Result<bool, String> {
+        let bytes = bounded_file::read(path, FileKind::Recording)
+            .map_err(|error| import::cannot_be_checked(&error.to_string()))?;
+        Ok(match &self.format {
+            Format::Signal(format, _) => format.may_replace(path, &bytes),
+            Format::Model(format) => format.is_like(&bytes),
+        })
+    }
+
     fn write(&self, paths: &[PathBuf]) -> Result<(), String> {
         match &self.format {
-            Format::Wav(options) => {
+            Format::Signal(format, options) => {
                 let signals = self.signals()?;
-                let scale_mps2 = self.shared_scale(&signals, options)?;
+                let scale_mps2 = self.shared_scale(&signals, *format, options)?;
                 if let Some(folder) = self.folder() {
                     let no_folder = |error: std::io::Error| {
                         strings::no_folder(&error.to_string(), &folder.display().to_string())
@@ -212,11 +242,12 @@ impl Job {
                     std::fs::create_dir_all(folder).map_err(no_folder)?;
                 }
                 for (signal, path) in signals.iter().zip(paths) {
-                    signal.write(path, options, scale_mps2)?;
+                    signal.write(*format, path, options, scale_mps2)?;
                 }
             }
             Format::Model(format) => {
-                let written = write_models(&self.entries()?, paths, *format, CREATED_BY, self.folder());
+                let context = ExportContext::new(CREATED_BY);
+                let written = write_models(&self.entries()?, paths, *format, &context, self.folder());
                 written.map_err(|error| one_line(&error))?;
             }
         }
@@ -255,16 +286,21 @@ fn add(list: &mut Vec<String>, texts: impl IntoIterator<Item = String>) {
 #[cfg(test)]
 mod tests {
     use super::{AudibleTexture, Format, Job, Outcome, What};
+    use shagreen_core::texture::height_map::{HeightMap, HeightMapOptions};
     use shagreen_formats::starter::starter_library;
-    use shagreen_studio::export::FORMATS;
+    use shagreen_studio::export::{FORMATS, model_paths};
     use std::path::Path;
     use std::sync::Arc;
 
     #[test]
     fn a_file_is_replaced_by_its_like_only_and_only_when_that_was_said() {
         let folder = tempfile::tempdir().unwrap();
-        let library = starter_library().unwrap();
-        let entry = library.textures[0].clone();
+        let mut entry = starter_library().unwrap().textures.swap_remove(0);
+        // Formats of maps need heights.
+        let heights_m = (0..256).map(|index| 1e-6 * f64::from(index % 3)).collect();
+        let map = HeightMap::new(heights_m, 0.008, HeightMapOptions::HARD_PLASTIC).unwrap();
+        entry.model = entry.model.with_height_map(Some(Arc::new(map)));
+        let texture = entry.clone();
         let audible = Arc::new(AudibleTexture {
             name: entry.name.clone(),
             signal: Err("no signal".to_owned()),
@@ -282,7 +318,7 @@ mod tests {
             assert!(matches!(job(&path).run(false), Outcome::Exists(paths) if paths == [path.clone()]));
             assert!(matches!(job(&path).run(true), Outcome::Saved(_)));
             let mut lost = vec![super::strings::PATH_LOST.to_owned()];
-            lost.extend(format.lost(&library.textures[0]));
+            lost.extend(format.lost(&texture));
             assert_eq!(job(&path).summary().unwrap().lost, lost);
             std::fs::write(&path, "my notes").unwrap();
             for replaces in [false, true] {
@@ -290,7 +326,11 @@ mod tests {
                 assert!(matches!(job(folder.path()).run(replaces), Outcome::Failed(_)), "{replaces}");
             }
             assert_eq!(std::fs::read(&path).unwrap(), b"my notes");
+            // Files of a format with several are not taken for own ones without the first of them.
             std::fs::remove_file(&path).unwrap();
+            let beside: Vec<_> = model_paths(format, &path).into_iter().skip(1).collect();
+            assert_eq!(matches!(job(&path).run(true), Outcome::Failed(_)), !beside.is_empty());
+            beside.iter().chain([&path]).for_each(|path| drop(std::fs::remove_file(path)));
         }
     }
 }

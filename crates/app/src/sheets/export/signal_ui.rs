@@ -17,12 +17,13 @@ const RATES_HZ: [u32; 6] = [4000, 8000, 16_000, 44_100, 48_000, 96_000];
 /// Space between a choice and the circle of the next one, in addition to the usual distance, in points.
 const BETWEEN_CHOICES: f32 = 14.0;
 
-/// Draws the options; returns whether any has changed. `is_all` states whether all authored textures are exported; `None` if
-/// there is one only.
+/// Draws the options; returns whether any has changed. Those of samples are for formats that store samples. `is_all` states
+/// whether all authored textures are exported; `None` if there is one only.
 pub(super) fn options_ui(
     ui: &mut Ui,
     signal: &SignalFile,
     options: &mut SignalOptions,
+    stores_samples: bool,
     is_all: Option<bool>,
 ) -> bool {
     let before = options.clone();
@@ -66,24 +67,34 @@ pub(super) fn options_ui(
             })
             .response
             .accessible_name(strings::RATE);
-        ui.label(strings::SAMPLES);
-        let samples = &mut options.encoding.samples;
-        ComboBox::from_id_salt("samples")
-            .selected_text(strings::samples(*samples))
-            .show_list(ui, |ui| {
-                for each in SampleType::ALL {
-                    ui.selectable_value(samples, each, strings::samples(each));
-                }
-            })
-            .response
-            .accessible_name(strings::SAMPLES);
+        if stores_samples {
+            ui.label(strings::SAMPLES);
+            let samples = &mut options.encoding.samples;
+            ComboBox::from_id_salt("samples")
+                .selected_text(strings::samples(*samples))
+                .show_list(ui, |ui| {
+                    for each in SampleType::ALL {
+                        ui.selectable_value(samples, each, strings::samples(each));
+                    }
+                })
+                .response
+                .accessible_name(strings::SAMPLES);
+        }
         if let Some(is_all) = is_all {
-            let is_scaled = options.encoding.level == Level::Peak;
+            let is_scaled = !stores_samples || options.encoding.level == Level::Peak;
             let scale = Checkbox::new(&mut options.shares_scale, strings::ONE_SCALE);
             let scale = ui.add_enabled(is_all && is_scaled, scale);
             scale.on_hover_text(strings::ONE_SCALE_HELP).on_disabled_hover_text(strings::NO_ONE_SCALE);
         }
     });
+    if stores_samples {
+        level_ui(ui, options);
+    }
+    before != *options
+}
+
+/// Draws the choice of the level of samples.
+fn level_ui(ui: &mut Ui, options: &mut SignalOptions) {
     ui.horizontal_wrapped(|ui| {
         ui.label(strings::LEVEL);
         let can_keep = options.encoding.samples == SampleType::Float32;
@@ -100,5 +111,4 @@ pub(super) fn options_ui(
             });
         }
     });
-    before != *options
 }

@@ -3,6 +3,7 @@ use std::path::Path;
 use shagreen_core::units::Contact;
 use shagreen_studio::export::WAV;
 
+use super::paths::has_ending;
 use super::{ExportSheet, ExportSubject};
 use crate::state::audible_texture::AudibleTexture;
 
@@ -28,6 +29,8 @@ fn only_the_ending_of_a_format_makes_a_file() {
     for (path, folder) in [
         ("/home/u/oak.wav", Some("/home/u")),
         ("/home/u/OAK.WAV", Some("/home/u")),
+        ("/home/u/oak.android.json", Some("/home/u")),
+        ("/home/u/.wav", None),
         ("/home/u/set.v2", None),
         ("/home/u/set", None),
     ] {
@@ -43,5 +46,18 @@ fn a_name_with_dots_comes_back_whole() {
         sheet.is_all = is_all;
         sheet.follow_number();
         assert_eq!(Path::new(sheet.path.text()), shown);
+    }
+}
+
+#[test]
+fn the_ending_follows_the_format_and_may_have_dots() {
+    for (path, ending, expected) in [
+        ("/home/u/oak.wav", "wav", true),
+        ("/home/u/oak.android.json", "android.json", true),
+        ("/home/u/oak.json", "android.json", false),
+        ("/home/u/oakwav", "wav", false),
+        ("/home/u/.wav", "wav", false),
+    ] {
+        assert_eq!(has_ending(Path::new(path), ending), expected, "{path}");
     }
 }

@@ -1,19 +1,16 @@
 //! Files that are being imported, and the textures made from them.
 
-use std::sync::Arc;
+mod entries;
+mod fitting;
 
-use shagreen_core::recording::fit::highest_order;
-use shagreen_core::space::LabelSource;
-use shagreen_core::units::Hertz;
-use shagreen_formats::library::{Library, TextureEntry, free_id, id_from_name, name_from_file};
+use shagreen_formats::library::{TextureEntry, name_from_file};
 use shagreen_formats::recording::Question;
 
 use crate::sheets::import::draft::{Draft, FitState};
 use crate::sheets::import::recording_state::RecordingState;
 use crate::sheets::import::shown_model::ShownModel;
-use crate::sheets::import::worker::{Drawn, Loaded, LoadedContent, Message, ReadOutcome, Request, Worker};
+use crate::sheets::import::worker::{Loaded, LoadedContent, Message, ReadOutcome, Request, Worker};
 use crate::state::source::Source;
-use shagreen_studio::place_estimate::place_by_estimate;
 
 /// Files of one import.
 pub struct Batch {
@@ -186,15 +183,6 @@ impl Batch {
         self.space_rate_hz.is_some()
     }
 
-    /// Fits a texture again at the rate of the space if its automatic rate is too high for a position.
-    fn lower_rate(&mut self, draft: u64) {
-        let Some(rate_hz) = self.space_rate_hz else { return };
-        let is_meant = |other: &Draft| other.id == draft && other.exceeds(rate_hz);
-        if let Some(index) = self.drafts.iter().position(is_meant) {
-            self.fit_at(index, Some(rate_hz));
-        }
-    }
-
     fn take_loaded(&mut self, loaded: Loaded) {
         let id = self.next_id();
         let Loaded { name, content } = loaded;
@@ -326,50 +314,6 @@ impl Batch {
         self.drafts.retain(|draft| !draft.files.is_empty());
     }
 
-    /// Fits the texture of a file again.
-    pub fn fit_with(&mut self, file: u64) {
-        if let Some(draft) = self.drafts.iter().position(|draft| draft.files.contains(&file)) {
-            self.fit(draft);
-        }
-    }
-
-    fn fit(&mut self, index: usize) {
-        self.fit_at(index, None);
-    }
-
-    /// Fits a texture with its options; `lowered_hz` takes the place of an automatic rate.
-    fn fit_at(&mut self, index: usize, lowered_hz: Option<f64>) {
-        let recordings: Vec<Arc<Drawn>> =
-            self.drawn_of(&self.drafts[index]).map(|(_, d)| Arc::clone(d)).collect();
-        let draft = &mut self.drafts[index];
-        draft.generation += 1;
-        if recordings.is_empty() {
-            draft.fit = FitState::Nothing;
-            return;
-        }
-        draft.fit = FitState::Working;
-        draft.is_lowered = lowered_hz.is_some();
-        let mut options = draft.options.clone();
-        if let Some(rate) = lowered_hz.map(Hertz) {
-            options.rate = options.rate.or(Some(rate));
-            options.order = options.order.filter(|order| *order <= highest_order(rate));
-        }
-        let (draft, generation) = (draft.id, draft.generation);
-        self.worker.ask(Request::Fit { draft, generation, recordings, options });
-    }
-
-    /// Readable recordings of a texture, in the order that the segments of its fit refer to.
-    pub fn drawn_of<'a>(&'a self, draft: &'a Draft) -> impl Iterator<Item = (&'a File, &'a Arc<Drawn>)> + 'a {
-        let in_draft = self.files.iter().filter(|file| draft.files.contains(&file.id));
-        in_draft.filter_map(|file| match &file.content {
-            Content::Recording(state) => match &state.outcome.recording {
-                Some(Ok(drawn)) => Some((file, drawn)),
-                _ => None,
-            },
-            _ => None,
-        })
-    }
-
     /// Status of a file.
     pub fn state(&self, file: &File) -> State {
         match &file.content {
@@ -403,50 +347,4 @@ impl Batch {
     pub fn has_recordings(&self) -> bool {
         self.drafts.iter().any(|draft| draft.fitted().is_some())
     }
-
-    /// Textures that would be added to `library` now.
-    /// A texture keeps its position only if it is comparable: from the same source as the others. In a library with
-    /// positions, its sample rate must also not exceed `space_rate_hz` (Hz). Recordings get estimated
-    /// positions if `place_in` says so.
-    pub fn entries(&self, library: &Library, space_rate_hz: f64) -> Vec<Arc<TextureEntry>> {
-        let mut ids: Vec<String> = library.textures.iter().map(|texture| texture.id.clone()).collect();
-        // Estimated positions follow from other positions, so they say nothing about the source.
-        let mut sources = library.label_sources();
-        sources.retain(|source| *source != LabelSource::Estimated);
-        let mut source = if let [source] = sources[..] { Some(source) } else { None };
-        let has_mixed_places = sources.len() > 1;
-        let mut out = Vec::new();
-        for file in &self.files {
-            let Content::Textures { entries, .. } = &file.content else { continue };
-            for entry in entries {
-                let mut entry = entry.clone();
-                entry.id = claim_id(&entry.id, &mut ids);
-                let fits = |from: LabelSource| !has_mixed_places && source.is_none_or(|s| s == from);
-                let is_comparable = entry.label_source().is_some_and(fits);
-                if is_comparable && (sources.is_empty() || entry.model.rate().0 <= space_rate_hz) {
-                    source = entry.label_source();
-                } else {
-                    entry.place = None;
-                }
-                out.push(Arc::new(entry));
-            }
-        }
-        for draft in &self.drafts {
-            let recordings: Vec<&str> = self.drawn_of(draft).map(|(file, _)| file.name.as_str()).collect();
-            let id = claim_id(&id_from_name(&draft.name), &mut ids);
-            let Some(mut entry) = draft.entry(id, &recordings) else { continue };
-            if self.are_placed() && entry.model.rate().0 <= space_rate_hz {
-                place_by_estimate(&mut entry, library);
-            }
-            out.push(Arc::new(entry));
-        }
-        out
-    }
-}
-
-/// The identifier, with a number appended if it is taken. The result is added to `taken`.
-fn claim_id(wanted: &str, taken: &mut Vec<String>) -> String {
-    let id = free_id(wanted, |id| taken.iter().any(|other| other == id));
-    taken.push(id.clone());
-    id
 }

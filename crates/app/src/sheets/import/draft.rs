@@ -3,14 +3,15 @@
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
-use shagreen_core::recording::fit::{FitOptions, Fitted, MODEL_RATES_HZ, highest_order};
+use shagreen_core::recording::fit::{FitOptions, Fitted};
+use shagreen_core::texture::MAX_ORDER;
 use shagreen_core::units::Hertz;
 use shagreen_formats::library::TextureEntry;
 
 use crate::strings::import as strings;
 
-/// Lowest model order that can be chosen.
-const LOWEST_ORDER: usize = 2;
+/// Model orders that can be chosen.
+pub(super) const ORDERS: RangeInclusive<usize> = 2..=MAX_ORDER;
 
 /// Texture that is being fitted to recordings.
 #[derive(Clone, Debug)]
@@ -81,20 +82,9 @@ impl Draft {
         self.options.rate.map(|rate| rate.0)
     }
 
-    /// Requests a sample rate in Hz; `None` determines it from the recordings. An order that is too high for the rate
-    /// is also determined from the recordings.
+    /// Requests a sample rate in Hz; `None` determines it from the recordings.
     pub fn set_rate_hz(&mut self, rate_hz: Option<f64>) {
         self.options.rate = rate_hz.map(Hertz);
-        if let Some(rate_hz) = rate_hz {
-            self.options.order = self.options.order.filter(|order| *order <= highest_order(Hertz(rate_hz)));
-        }
-    }
-
-    /// Orders available at the requested rate, or else at the rate of the fit. Before a fit, those available at every
-    /// rate.
-    pub(super) fn orders(&self) -> RangeInclusive<usize> {
-        let rate_hz = self.rate_hz().or(self.fitted().map(|fitted| fitted.report.rate.0));
-        LOWEST_ORDER..=highest_order(Hertz(rate_hz.unwrap_or(MODEL_RATES_HZ[0])))
     }
 
     /// Library entry of the texture, with its recordings as origin; `None` if it is not fitted.
@@ -108,24 +98,5 @@ impl Draft {
             description: strings::fit_in_words(&fitted.report),
             ..TextureEntry::new(id, self.name.trim(), fitted.model.clone())
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Draft;
-    use shagreen_core::texture::MAX_ORDER;
-
-    #[test]
-    fn orders_follow_the_rate() {
-        let mut draft = Draft::new(1, "Cork".to_owned(), vec![]);
-        assert_eq!(draft.orders(), 2..=20);
-        draft.set_rate_hz(Some(4000.0));
-        assert_eq!(draft.orders(), 2..=MAX_ORDER);
-        draft.options.order = Some(MAX_ORDER);
-        draft.set_rate_hz(Some(2000.0));
-        assert_eq!(draft.options.order, Some(MAX_ORDER));
-        draft.set_rate_hz(Some(1000.0));
-        assert_eq!(draft.options.order, None);
     }
 }

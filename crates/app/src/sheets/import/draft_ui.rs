@@ -187,7 +187,7 @@ fn segment_spectrum_ui(ui: &mut Ui, report: &FitReport, segment: &mut usize, hei
         });
     });
     let comparison = &chosen.comparison;
-    let model_name = if report.held_out { strings::HELD_OUT_LINE } else { strings::MODEL_LINE };
+    let model_name = if report.held_out.is_any() { strings::HELD_OUT_LINE } else { strings::MODEL_LINE };
     let model = (model_name, comparison.model_psd.as_slice());
     spectrum_plot(ui, &report.frequencies, Some(&comparison.measured_psd), model, height);
     let figures = strings::of_segment(chosen);

@@ -1,12 +1,12 @@
 //! Options and results of fitting a texture.
 
 use egui::{ComboBox, Grid, Label, RichText, TextEdit, Ui};
-use shagreen_core::recording::fit::{FitReport, MODEL_RATES_HZ};
+use shagreen_core::recording::fit::{FitReport, HeldOut, MODEL_RATES_HZ};
 use shagreen_core::texture::Interpolation;
 
 use crate::look::list::ShowList as _;
 use crate::look::theme::{GAP, tokens};
-use crate::sheets::import::draft::{Draft, FitState};
+use crate::sheets::import::draft::{Draft, FitState, ORDERS};
 use crate::sheets::import::import_context::ImportContext;
 use crate::strings::import as strings;
 use crate::strings::sentence;
@@ -69,11 +69,10 @@ fn rate_ui(ui: &mut Ui, draft: &mut Draft, width: f32) {
 
 fn order_ui(ui: &mut Ui, draft: &mut Draft, width: f32) {
     let words = |order: Option<usize>| order.map_or(strings::AUTOMATIC.to_owned(), |order| order.to_string());
-    let orders = draft.orders();
     let order = &mut draft.options.order;
     let combo = ComboBox::from_id_salt("order").width(width).selected_text(words(*order));
     let combo = combo.show_list(ui, |ui| {
-        for choice in std::iter::once(None).chain(orders.map(Some)) {
+        for choice in std::iter::once(None).chain(ORDERS.map(Some)) {
             ui.selectable_value(order, choice, words(choice));
         }
     });
@@ -119,8 +118,11 @@ pub(super) fn fit_ui(ui: &mut Ui, draft: &Draft, around: ImportContext<'_>, is_p
 fn figures_ui(ui: &mut Ui, report: &FitReport) {
     let t = tokens(ui.ctx());
     ui.add(Label::new(RichText::new(strings::FIGURES).strong()).selectable(false));
-    let held_out = if report.held_out { strings::HELD_OUT } else { strings::NOT_HELD_OUT };
-    let color = if report.held_out { t.text_weak } else { t.warning };
+    let (held_out, color) = match report.held_out {
+        HeldOut::Segments => (strings::HELD_OUT, t.text_weak),
+        HeldOut::Blocks => (strings::HELD_OUT_BLOCKS, t.warning),
+        HeldOut::Nothing => (strings::NOT_HELD_OUT, t.warning),
+    };
     ui.add(Label::new(RichText::new(held_out).small().color(color)).wrap().selectable(false));
     let tap = report.tap.as_ref().map_or(strings::NO_TAP.to_owned(), strings::tap);
     let rows = [

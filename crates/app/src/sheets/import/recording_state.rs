@@ -102,14 +102,16 @@ impl RecordingState {
     fn applied(&self, question: &Question, answer: &str) -> Result<ColumnMap, String> {
         let mut map = self.map.clone();
         let taken = map.answer(question.what, answer);
-        // A WAV file has no columns, so a speed or force that is no quantity is nothing.
+        // A WAV file and a clip have no columns, so a speed or force that is no quantity is nothing.
         let is_quantity = match question.what {
             Ask::Speed => taken.is_ok() && map.constant_speed.is_some(),
             Ask::Force => taken.is_ok() && map.constant_force.is_some(),
             _ => true,
         };
         match taken {
-            _ if self.input.is_wav() && !is_quantity => Err(strings::no_quantity(question.what, answer)),
+            _ if self.input.lacks_columns() && !is_quantity => {
+                Err(strings::no_quantity(question.what, answer))
+            }
             Ok(()) => Ok(map),
             Err(error) => Err(strings::not_understood(question.what, answer, &error.needs)),
         }

@@ -6,6 +6,7 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 
 use shagreen_core::recording::Recording;
 use shagreen_core::recording::fit::{FitOptions, Fitted, fit};
+use shagreen_formats::clip::ClipKind;
 use shagreen_formats::imported::Imported;
 use shagreen_formats::library::TextureEntry;
 use shagreen_formats::picture::photo_pixels;
@@ -84,9 +85,9 @@ impl RecordingInput {
         Self { name, bytes: bytes.into(), sidecar }
     }
 
-    /// Whether the file is a WAV file, which has channels instead of columns.
-    pub(super) fn is_wav(&self) -> bool {
-        self.bytes.starts_with(b"RIFF")
+    /// Whether the file is a WAV file or a haptic clip, which have no columns.
+    pub(super) fn lacks_columns(&self) -> bool {
+        self.bytes.starts_with(b"RIFF") || ClipKind::of(&self.name, &self.bytes).is_some()
     }
 }
 
@@ -288,7 +289,8 @@ fn load_one(source: &Source, bytes: Vec<u8>, all: &[Source], map: &ColumnMap) ->
     if ending == "json" && is_sidecar(source, all) {
         return LoadedContent::Helper { note: strings::IS_SIDECAR };
     }
-    if let Some(format) = format_of_ending(&ending) {
+    let is_clip = ClipKind::of(&source.name(), &bytes).is_some();
+    if let Some(format) = format_of_ending(&ending).filter(|_| !is_clip) {
         return match format.read(&source.name(), &bytes) {
             Ok(Imported { value: entries, warnings }) => LoadedContent::Textures { entries, warnings },
             Err(reason) => LoadedContent::Failed(reason),

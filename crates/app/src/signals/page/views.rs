@@ -15,8 +15,10 @@ use crate::signals::editor_ui::tools_ui;
 use crate::signals::features_ui::features_ui;
 use crate::signals::figures::{features_figure, fidelity_figure, rates_figure};
 use crate::signals::maps::{Seen, map_ui};
+use crate::signals::model_ui::{model_ui, origin_ui};
 use crate::signals::slot::Place;
 use crate::signals::spatial_ui::{places_map_ui, spatial_ui};
+use crate::strings::differences::predicted_by;
 use crate::strings::digits::three_digits;
 use crate::strings::signals as strings;
 
@@ -48,6 +50,10 @@ impl SignalsPage {
                 {
                     self.spatial.shown_mm = None;
                 }
+            }
+            if self.view == View::Differences {
+                ui.add_space(GROUP_GAP);
+                commands.extend(model_ui(ui, &self.model));
             }
         });
         ui.add_space(GAP);
@@ -140,14 +146,19 @@ impl SignalsPage {
     }
 
     fn differences_ui(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
+        origin_ui(ui, &self.model);
         let known: Vec<(Tone, &str, &ByRate)> = self.of_each(Place::by_rate);
-        let rates = Arc::new(rates_figure(&known));
+        let source = self.model().map_or_else(
+            || strings::PREDICTED.to_owned(),
+            |model| predicted_by(&model.name, &model.origin()),
+        );
+        let rates = Arc::new(rates_figure(&known, &source));
         let names = Slot::ALL.map(|slot| self.signal(slot).map_or("", |signal| &signal.name));
         let compared = self.compared();
         let [mut left, mut right] = two_areas(ui);
         match compared {
             Some(Ok(compared)) => {
-                let figure = Arc::new(features_figure(compared, names));
+                let figure = Arc::new(features_figure(compared, names, &source));
                 let scroll = ScrollArea::both().id_salt("features").auto_shrink(false);
                 let shown = scroll.show(&mut left, |ui| {
                     ui.set_max_width(ui.available_width() - SCROLL_BAR_ROOM);

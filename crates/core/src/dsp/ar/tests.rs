@@ -1,5 +1,5 @@
 use super::test_signals::from_resonances;
-use super::{ArError, burg, comparison_frequencies, order_by_bic, power_gain, psd, yule_walker};
+use super::{ArError, burg, comparison_frequencies, order_by_bic, power_gain, psd, step_down, yule_walker};
 use crate::dsp::lsf::{ar_from_lsf, lsf_from_ar};
 use crate::maths::rng::lcg_noise;
 use crate::units::Hertz;
@@ -82,6 +82,26 @@ fn golden_fits() {
         check(&[twenty.variance], &[golden["s2"].as_f64().unwrap()], 1e-11);
         check(&[twenty.variance * power_gain(&twenty.ar)], &[golden["power"].as_f64().unwrap()], 1e-9);
         check(&lsf_from_ar(&twenty.ar).unwrap(), &floats(&golden["lsf"]), 1e-9);
+    }
+}
+
+#[test]
+fn a_lowered_predictor_is_that_of_the_lower_order() {
+    let x = realization();
+    for fit in [yule_walker as fn(&[f64], usize) -> _, burg] {
+        let mut lowered = fit(&x, 64).unwrap().ar;
+        for order in (1..64).rev() {
+            let left = step_down(&mut lowered).unwrap();
+            assert!(left > 0.0 && left <= 1.0, "{left}");
+            if order % 9 == 1 {
+                check(&lowered, &fit(&x, order).unwrap().ar, 1e-10);
+            }
+        }
+    }
+    let mut none = Vec::new();
+    assert_eq!(step_down(&mut none), None);
+    for unstable in [1.0, -1.5, f64::NAN] {
+        assert_eq!(step_down(&mut vec![0.5, unstable]), None);
     }
 }
 

@@ -9,7 +9,8 @@ use crate::dsp::lsf::lsf_from_ar;
 const N_GRID: usize = 96;
 /// The upper half of the grid has the cosines of the lower half with opposite sign; the same holds for odd multiples.
 const HALF: usize = N_GRID / 2;
-/// Maximum number of roots of a half polynomial: half of the highest order.
+/// Maximum number of roots of a half polynomial: half of the highest order that is converted quickly. Higher ones are left
+/// to [`lsf_from_ar`].
 const MOST_ROOTS: usize = 16;
 /// Maximum number of false-position steps. Early steps narrow a bracket, later steps square the error; about five are
 /// usual.

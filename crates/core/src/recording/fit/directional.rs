@@ -20,8 +20,9 @@ use crate::recording::fit::directional::groups::{Groups, difference};
 use crate::recording::fit::directional::power_law::{PowerLaw, modulation_by_chance_db};
 use crate::recording::fit::directional::stroke_power::{StrokePowers, spread_db};
 use crate::recording::fit::pieces::{Cut, Piece, cut};
+use crate::recording::fit::split::Split;
 use crate::recording::fit::surface::Surface;
-use crate::recording::fit::{FitError, FitOptions, TapFit, coverage_of, landing, order_of};
+use crate::recording::fit::{FitError, FitOptions, TapFit, coverage_of, first_playable, landing, orders};
 use crate::texture::TextureModel;
 use crate::texture::plane::Plane;
 use crate::units::Hertz;
@@ -119,11 +120,11 @@ pub fn fit_directions(
         return Err(FitError::Direction { recording });
     }
     let Cut { pieces, rate, mut notes } = cut(&recordings, options.rate)?;
+    let orders = orders(&Split::new(&pieces, rate), options.order)?;
     let tap = landing(&recordings, &mut notes);
     let (axes_rad, strokes) = by_axis(&directions_rad, pieces, &mut notes);
     let all = Surface::new(strokes.iter().flatten().collect());
-    let order = order_of(&all, rate, options.order)?;
-    let pooled = all.model(rate, order, options.interpolation)?;
+    let (order, pooled) = first_playable(&orders, |order| all.model(rate, order, options.interpolation))?;
     let coverage = coverage_of(&all, &mut notes);
     let plane = Plane::new(&pooled);
 
@@ -152,9 +153,12 @@ pub fn fit_directions(
     }
     let least_db = chance_db.unwrap_or(0.0).max(LEAST_MODULATION_DB);
     let across_rad = found.filter(|law| law.modulation_db() >= least_db).map(PowerLaw::across_rad);
-    let model = match across_rad {
-        Some(across_rad) => lay::model(&strokes, &axes_rad, across_rad, &pooled, order)?,
-        None => pooled,
+    let (order, model) = match across_rad {
+        Some(across_rad) => {
+            let lower: Vec<usize> = orders.into_iter().filter(|lower| *lower <= order).collect();
+            first_playable(&lower, |order| lay::model(&strokes, &axes_rad, across_rad, &pooled, order))?
+        }
+        None => (order, pooled),
     };
     let (gfc_median, level_error_db_median) = comparison::medians(&model, &axes_rad, &strokes);
     let report = DirectionReport {

@@ -61,7 +61,7 @@ pub enum FitError {
     OrderAsked {
         /// Requested order.
         order: usize,
-        /// Highest valid order at this model rate.
+        /// Highest valid order.
         highest: usize,
     },
     /// The usable signal is too short.
@@ -116,4 +116,19 @@ pub enum FitError {
     /// The fitted numbers do not form a valid model.
     #[error(transparent)]
     Model(#[from] TextureModelError),
+}
+
+impl FitError {
+    /// Whether a lower order can help: the peaks of the spectrum are too sharp for a filter in single precision.
+    pub(super) fn is_too_sharp(&self) -> bool {
+        let is_filter = |error: &TextureModelError| {
+            matches!(error, TextureModelError::Unstable { .. } | TextureModelError::Frequencies { .. })
+        };
+        match self {
+            Self::Unstable { .. } => true,
+            Self::Model(TextureModelError::InAlong(error)) => is_filter(error.as_ref()),
+            Self::Model(error) => is_filter(error),
+            _ => false,
+        }
+    }
 }

@@ -1,23 +1,17 @@
 //! Cross-validation: comparison of segments with models fitted without them.
 
+use std::ops::Range;
+
 use crate::dsp::spectrum::goodness_of_fit;
 use crate::maths::sums::add_times;
 use crate::recording::fit::pieces::Piece;
+use crate::recording::fit::smear::{self, Leakage};
+use crate::recording::fit::split::Split;
 use crate::recording::fit::surface::{Surface, distance};
-use crate::recording::fit::{Comparison, FitError, HIGH_PASS, smear};
+use crate::recording::fit::{Comparison, FitError, HIGH_PASS};
 use crate::texture::Interpolation;
 use crate::texture::plane::{Grain, Plane};
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
-
-/// Number of folds.
-const N_FOLDS: usize = 10;
-
-/// Number of passes through the folds over all segments. A fold consists of blocks of neighboring segments, spread over
-/// all strokes.
-const N_TURNS: usize = 2;
-
-/// Minimum number of segments for cross-validation.
-const MIN_PIECES: usize = 10;
 
 /// Window length in seconds: 256 samples at 1 kHz.
 const WINDOW_SECS: f64 = 0.256;
@@ -32,36 +26,35 @@ const POOL_DISTANCE: f64 = 0.2;
 /// Result of the comparison.
 pub(super) struct Compared {
     pub(super) frequencies: Vec<Hertz>,
+    /// One for each segment.
     pub(super) comparisons: Vec<Comparison>,
-    pub(super) held_out: bool,
 }
 
-/// Compares every segment with a model fitted without it, or with the model of all segments if there are few.
+/// Compares every segment with models that were fitted without it, or without one of its blocks each; with the model of
+/// all segments if nothing is left out.
 pub(super) fn compare(
-    pieces: &[Piece],
-    rate: Hertz,
+    split: &Split<'_>,
     order: usize,
     interpolation: Interpolation,
 ) -> Result<Compared, FitError> {
-    let held_out = pieces.len() >= MIN_PIECES;
-    let folds = if held_out { folds(pieces) } else { vec![0; pieces.len()] };
-    let mut grains: Vec<Option<Grain>> = vec![None; pieces.len()];
-    for fold in 0..N_FOLDS {
-        let seen: Vec<&Piece> =
-            pieces.iter().zip(&folds).filter(|(_, f)| !held_out || **f != fold).map(|(p, _)| p).collect();
-        let asked = || folds.iter().enumerate().filter(move |(_, f)| **f == fold);
-        if seen.is_empty() || asked().next().is_none() {
+    let mut grains: Vec<Option<Grain>> = vec![None; split.parts.len()];
+    for fold in 0..split.n_folds() {
+        let seen = split.seen(fold);
+        let mut asked = split.asked(fold).peekable();
+        if seen.is_empty() || asked.peek().is_none() {
             continue;
         }
-        let plane = Plane::new(&Surface::new(seen).model(rate, order, interpolation)?);
-        for (i, _) in asked() {
-            let contact =
-                Contact { speed: MetersPerSecond(pieces[i].speed_mps), force: Newtons(pieces[i].force_n) };
-            grains[i] = Some(plane.at(contact));
+        let plane = Plane::new(&Surface::new(seen).model(split.rate, order, interpolation)?);
+        for index in asked {
+            let Piece { speed_mps, force_n, .. } = split.parts[index];
+            let contact = Contact { speed: MetersPerSecond(speed_mps), force: Newtons(force_n) };
+            grains[index] = Some(plane.at(contact));
         }
     }
-    let (frequencies, comparisons) = with_grains(pieces, rate, &grains);
-    Ok(Compared { frequencies, comparisons, held_out })
+    let (frequencies, comparisons) = with_grains(&split.parts, split.rate, &grains);
+    // Blocks of a segment have its speed and force, and so they are pooled with the same blocks.
+    let comparisons = split.first.iter().map(|first| comparisons[*first].clone()).collect();
+    Ok(Compared { frequencies, comparisons })
 }
 
 /// Compares every segment with the grain that was predicted for it; a segment without one is compared with silence.
@@ -71,10 +64,8 @@ pub(super) fn with_grains(
     rate: Hertz,
     grains: &[Option<Grain>],
 ) -> (Vec<Hertz>, Vec<Comparison>) {
-    let n_bins = (WINDOW_SECS * rate.0).round() as usize;
+    let (n_bins, bins) = compared_bins(rate);
     let step_hz = rate.0 / n_bins as f64;
-    let first = (HIGH_PASS.0 / step_hz).ceil() as usize;
-    let bins = first..n_bins.div_ceil(2);
     let spectra: Vec<[Vec<f64>; 2]> = pieces
         .iter()
         .zip(grains)
@@ -82,7 +73,7 @@ pub(super) fn with_grains(
             let measured = smear::measured(&piece.signal, rate, n_bins);
             let model = grain.as_ref().map_or_else(
                 || vec![0.0; measured.len()],
-                |grain| smear::expected(grain, piece.signal.len(), n_bins),
+                |grain| Leakage::new(piece.signal.len(), n_bins).expected(&smear::grain_density(grain)),
             );
             [measured, model].map(|s| s[bins.clone()].to_vec())
         })
@@ -98,18 +89,11 @@ pub(super) fn with_grains(
     (bins.map(|k| Hertz(k as f64 * step_hz)).collect(), comparisons)
 }
 
-/// Fold of every segment.
-fn folds(pieces: &[Piece]) -> Vec<usize> {
-    let total: f64 = pieces.iter().map(|p| p.seconds).sum();
-    let mut before = 0.0;
-    pieces
-        .iter()
-        .map(|piece| {
-            let block = ((N_FOLDS * N_TURNS) as f64 * before / total) as usize;
-            before += piece.seconds;
-            block % N_FOLDS
-        })
-        .collect()
+/// Number of samples of a window at this rate, and the bins of its spectrum that are compared: above [`HIGH_PASS`].
+pub(super) fn compared_bins(rate: Hertz) -> (usize, Range<usize>) {
+    let n_bins = (WINDOW_SECS * rate.0).round() as usize;
+    let first = (HIGH_PASS.0 * n_bins as f64 / rate.0).ceil() as usize;
+    (n_bins, first..n_bins.div_ceil(2))
 }
 
 /// A segment and its nearest neighbors, up to [`POOL_SECS`] in total.

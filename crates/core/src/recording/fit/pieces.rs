@@ -25,15 +25,21 @@ const SETTLE_SECS: f64 = 0.1;
 /// Minimum duration of a segment, in seconds.
 const MIN_PIECE_SECS: f64 = 0.1;
 
-/// Minimum number of samples of a segment for each predictor coefficient.
+/// Minimum number of samples of a segment for each coefficient of a usual predictor.
 const SAMPLES_A_COEFFICIENT: usize = 5;
 
-/// Highest model order that is tried, by model rate; a band twice as wide has more resonances.
-pub fn highest_order(rate: Hertz) -> usize {
-    if rate.0 <= 1000.0 { 20 } else { crate::texture::MAX_ORDER }
+/// Highest usual order at a model rate; a band twice as wide has more resonances.
+pub(super) fn usual_order(rate: Hertz) -> usize {
+    if rate.0 <= 1000.0 { 20 } else { 32 }
+}
+
+/// Minimum number of samples of a segment at a model rate; more than the highest order.
+pub(super) fn least_samples(rate: Hertz) -> usize {
+    SAMPLES_A_COEFFICIENT * usual_order(rate)
 }
 
 /// Segment at the model rate, with the data that predictors are estimated from.
+#[derive(Clone)]
 pub(super) struct Piece {
     pub(super) recording: usize,
     pub(super) start_secs: f64,
@@ -77,8 +83,7 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, 
         return Err(nothing(&stroked));
     }
     let rate = rate.unwrap_or_else(|| rate_by_bandwidth(&stroked, lowest_hz));
-    let order = highest_order(rate);
-    let n_min = SAMPLES_A_COEFFICIENT * order;
+    let n_min = least_samples(rate);
     let mut pieces = Vec::new();
     let (mut short_secs, mut silent_secs) = (0.0, 0.0);
     for (index, stroked) in stroked.iter().enumerate() {
@@ -104,7 +109,7 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, 
                 &signal[sample(stretch.samples.start)..sample(stretch.samples.end).min(signal.len())];
             let seconds = signal.len() as f64 / rate.0;
             // Rounding of the ends can cost a sample.
-            if signal.len() + 1 < n_min || signal.len() <= order {
+            if signal.len() + 1 < n_min {
                 short_secs += seconds;
                 continue;
             }
@@ -128,7 +133,7 @@ pub(super) fn cut(recordings: &[Recording], rate: Option<Hertz>) -> Result<Cut, 
     if pieces.is_empty() {
         return Err(if silent_secs > 0.0 { FitError::Silent } else { nothing(&stroked) });
     }
-    Ok(Cut { pieces, rate, notes: notes(&stroked, short_secs, silent_secs) })
+    Ok(Cut { pieces, rate, notes: notes(&stroked, (short_secs, n_min), silent_secs) })
 }
 
 /// Checks that the columns satisfy the conditions of [`Recording`].
@@ -233,13 +238,13 @@ pub(super) fn nothing(stroked: &[Stroked<'_>]) -> FitError {
     }
 }
 
-fn notes(stroked: &[Stroked<'_>], short_secs: f64, silent_secs: f64) -> Vec<String> {
+fn notes(stroked: &[Stroked<'_>], (short_secs, n_min): (f64, usize), silent_secs: f64) -> Vec<String> {
     let sum = |value: fn(&Segmentation) -> f64| stroked.iter().map(|s| value(&s.segmentation)).sum::<f64>();
     let left_out = [
         (sum(|s| s.lifted_secs), format!("with the tip lifted (below {MIN_FORCE})")),
         (sum(|s| s.slow_secs), format!("with a tip speed below {:.0} mm/s", MIN_SPEED.mm_per_s())),
         (sum(|s| s.changing_secs), "with speed or force changing too fast".to_owned()),
-        (short_secs, format!("in segments with fewer than {SAMPLES_A_COEFFICIENT} samples per coefficient")),
+        (short_secs, format!("in segments with fewer than {n_min} samples")),
         (silent_secs, "without any vibration".to_owned()),
     ];
     left_out

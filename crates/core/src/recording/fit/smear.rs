@@ -6,9 +6,9 @@ use crate::dsp::spectrum::{hann, periodogram};
 use crate::texture::plane::Grain;
 use crate::units::Hertz;
 
-/// Number of frequencies, over the full circle, from which a model's autocorrelation is computed. Poles of radius 0.995
+/// Number of frequencies, over the full circle, from which a model's autocorrelation is computed. Poles of radius 0.9975
 /// have decayed to a billionth where it starts to repeat.
-const N_GRID: usize = 4096;
+const N_GRID: usize = 8192;
 
 /// Welch density of a signal with Hann windows, on `n_bins` bins of the full circle. A signal shorter than `n_bins` has
 /// one window of its own length.
@@ -16,25 +16,55 @@ pub(super) fn measured(signal: &[f64], rate: Hertz, n_bins: usize) -> Vec<f64> {
     periodogram(signal, rate, n_bins.min(signal.len()), n_bins)
 }
 
-/// Expected value of [`measured`] for a signal of `n_samples` samples of this grain.
-pub(super) fn expected(grain: &Grain, n_samples: usize, n_bins: usize) -> Vec<f64> {
-    let window = n_bins.min(n_samples);
-    let grid: Vec<Hertz> = (0..=N_GRID / 2).map(|i| Hertz(i as f64 * grain.rate.0 / N_GRID as f64)).collect();
-    let density = mirrored(&grain.psd(&grid), N_GRID);
-    // The transform of an even real sequence is real: the autocorrelation times a constant that cancels.
-    let lags = even_transform(&density, N_GRID);
-    let hann = hann(window);
-    let power: f64 = hann.iter().map(|w| w * w).sum();
-    let mut tapered = vec![0.0; n_bins];
-    for k in 0..window {
-        let taper = hann.iter().zip(&hann[k..]).map(|(a, b)| a * b).sum::<f64>() / power;
-        let value = taper * lags[k] / N_GRID as f64;
-        tapered[k % n_bins] += value;
-        if k > 0 {
-            tapered[n_bins - k] += value;
-        }
+/// Density of a fitted grain, which has no moving average, at [`N_GRID`] / 2 + 1 frequencies from zero to half of its
+/// rate, in (m/s²)²/Hz.
+pub(super) fn grain_density(grain: &Grain) -> Vec<f64> {
+    let scale = 2.0 * grain.excitation_variance() / grain.rate.0;
+    predictor_density(&grain.ar()).into_iter().map(|density| scale * density).collect()
+}
+
+/// Density of a predictor at the same frequencies, without its scale.
+pub(super) fn predictor_density(ar: &[f64]) -> Vec<f64> {
+    let fft = RealFftPlanner::<f64>::new().plan_fft_forward(N_GRID);
+    let (mut input, mut bins) = (fft.make_input_vec(), fft.make_output_vec());
+    input[0] = 1.0;
+    input[1..=ar.len()].copy_from_slice(ar);
+    crate::dsp::dft321::check_run(&fft.process(&mut input, &mut bins));
+    bins.iter().map(|bin| bin.norm_sqr().recip()).collect()
+}
+
+/// Leakage of the window of [`measured`] for signals of a length.
+pub(super) struct Leakage {
+    n_bins: usize,
+    /// Autocorrelation of the window, relative to its power.
+    taper: Vec<f64>,
+}
+
+impl Leakage {
+    /// Leakage of signals of `n_samples` samples.
+    pub(super) fn new(n_samples: usize, n_bins: usize) -> Self {
+        let window = n_bins.min(n_samples);
+        let hann = hann(window);
+        let power: f64 = hann.iter().map(|w| w * w).sum();
+        let at = |k: usize| hann.iter().zip(&hann[k..]).map(|(a, b)| a * b).sum::<f64>() / power;
+        Self { n_bins, taper: (0..window).map(at).collect() }
     }
-    even_transform(&tapered, n_bins)
+
+    /// Expected value of [`measured`] for a signal with this density, as from [`grain_density`].
+    pub(super) fn expected(&self, density: &[f64]) -> Vec<f64> {
+        let density = mirrored(density, N_GRID);
+        // The transform of an even real sequence is real: the autocorrelation times a constant that cancels.
+        let lags = even_transform(&density, N_GRID);
+        let mut tapered = vec![0.0; self.n_bins];
+        for (k, taper) in self.taper.iter().enumerate() {
+            let value = taper * lags[k] / N_GRID as f64;
+            tapered[k % self.n_bins] += value;
+            if k > 0 {
+                tapered[self.n_bins - k] += value;
+            }
+        }
+        even_transform(&tapered, self.n_bins)
+    }
 }
 
 /// Full circle from its upper half.
@@ -52,7 +82,7 @@ fn even_transform(x: &[f64], n: usize) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{expected, measured};
+    use super::{Leakage, N_GRID, grain_density, measured};
     use crate::dsp::ar::test_signals::from_resonances;
     use crate::dsp::lsf::lsf_from_ar;
     use crate::maths::rng::lcg_noise;
@@ -77,7 +107,7 @@ mod tests {
             x[n] -= (1..=ar.len().min(n)).map(|k| ar[k - 1] * x[n - k]).sum::<f64>();
         }
         for n_samples in [120, 256, 1000] {
-            let model = expected(&grain, n_samples, 256);
+            let model = Leakage::new(n_samples, 256).expected(&grain_density(&grain));
             let mut mean = vec![0.0; 129];
             let parts: Vec<&[f64]> = x[1000..].chunks_exact(n_samples).collect();
             for part in &parts {
@@ -97,10 +127,20 @@ mod tests {
     }
 
     #[test]
+    fn the_density_of_a_grain_is_that_of_its_formula() {
+        let (grain, _) = grain();
+        let frequencies: Vec<Hertz> =
+            (0..=N_GRID / 2).map(|i| Hertz(i as f64 * grain.rate.0 / N_GRID as f64)).collect();
+        for (fast, slow) in grain_density(&grain).iter().zip(grain.psd(&frequencies)) {
+            assert!((fast / slow - 1.0).abs() < 1e-9, "got {fast}, expected {slow}");
+        }
+    }
+
+    #[test]
     fn the_power_stays() {
         let (grain, _) = grain();
         for n_samples in [100, 256] {
-            let model = expected(&grain, n_samples, 256);
+            let model = Leakage::new(n_samples, 256).expected(&grain_density(&grain));
             // The bins at both ends belong to both halves of the circle.
             let power = (model.iter().sum::<f64>() - 0.5 * (model[0] + model[128])) * 1000.0 / 256.0;
             assert!((power / 4.0 - 1.0).abs() < 1e-6, "{power}");

@@ -130,6 +130,12 @@ impl<'a> Surface<'a> {
         }
     }
 
+    /// Predictor of this order at a speed and force, from the segments nearby.
+    pub(super) fn predictor_at(&self, speed_mps: f64, force_n: f64, order: usize) -> Result<ArFit, FitError> {
+        let weights = self.weights(self.share(speed_mps, force_n));
+        Ok(self.predictor(&weights, speed_mps, order)?.0)
+    }
+
     /// Predictor of the segments near a position, and its effective number of samples. The segments are normalized, so
     /// that their level has no influence.
     fn predictor(&self, weights: &[f64], speed_mps: f64, order: usize) -> Result<(ArFit, f64), FitError> {

@@ -1,8 +1,9 @@
-//! Quality model: d′ as a weighted sum of feature distances, with fitted weights and feature selection.
+//! Quality model: d′ as a weighted sum of feature distances, with fitted weights and their standard errors.
 
 use super::{Distances, Feature};
 use crate::maths::least_squares::least_squares;
-use crate::maths::statistics::{centered, dot};
+use crate::maths::statistics::{dot, is_constant};
+use crate::maths::weighted_statistics::weighted_variance;
 use crate::units::Hertz;
 
 /// Features selected in the paper.
@@ -17,6 +18,11 @@ pub const PAPER_PAIRS: usize = 25;
 /// Sampling rate of the paper's signals.
 pub const PAPER_RATE: Hertz = Hertz(2000.0);
 
+/// Largest number of pairs of a fit.
+pub const MOST_PAIRS: usize = 2000;
+/// Largest number of textures of a fit; the rotations grow with its square.
+pub const MOST_TEXTURES: usize = 100;
+
 /// Largest number of features in a fit: all subsets are enumerated.
 const MOST_FEATURES: usize = 7;
 
@@ -29,6 +35,8 @@ pub struct RatedPair {
     pub distances: Distances,
     /// Rated discriminability d′.
     pub d_prime: f64,
+    /// Weight of the pair in a fit, above 0; 1 as published. A pair of weight 2 counts as two pairs.
+    pub weight: f64,
 }
 
 /// Predicts d′ from distances: `d′ = Σ w x / ‖x‖`, with the normalization lengths ‖x‖ of the corpus behind the weights.
@@ -60,6 +68,42 @@ pub enum QualityModelError {
     Constant {
         /// The feature.
         feature: Feature,
+    },
+    /// All distances by all features are zero.
+    #[error("no two signals of a pair differ in any of the features; add pairs that differ")]
+    Alike,
+    /// All pairs have the same rating, or all ratings are zero.
+    #[error(
+        "all pairs have the same d', so that nothing can be predicted from it; add pairs with other ratings"
+    )]
+    SameRatings,
+    /// A weight or a length is impossible.
+    #[error(
+        "the weight of {} must be 0 or more, and its length above 0, both finite; correct them, or fit the model again", .feature.id()
+    )]
+    Term {
+        /// The feature.
+        feature: Feature,
+    },
+    /// There are too few pairs to select among so many features.
+    #[error(
+        "selecting among {n_features} features needs more than {n_features} pairs besides those of any one texture, got {n_pairs}; add pairs, or choose fewer features (--features)"
+    )]
+    Pairs {
+        /// Number of features with distances.
+        n_features: usize,
+        /// Pairs that remain without the pairs of one texture.
+        n_pairs: usize,
+    },
+    /// There are more pairs or textures than can be fitted in reasonable time.
+    #[error(
+        "{n_pairs} pairs of {n_textures} textures are too many; use at most {MOST_PAIRS} pairs of {MOST_TEXTURES} textures"
+    )]
+    TooMany {
+        /// Given number of pairs.
+        n_pairs: usize,
+        /// Given number of textures.
+        n_textures: usize,
     },
     /// There are too few textures to leave some out.
     #[error("leaving textures out needs 3 or more, got {n}; add pairs of other textures")]
@@ -97,16 +141,67 @@ impl QualityModel {
         let corpus: Vec<Distances> = pairs.iter().map(|pair| pair.distances).collect();
         let even: Vec<(Feature, f64)> = features.iter().map(|feature| (*feature, 1.0)).collect();
         let mut model = Self::weighted(&even, &corpus)?;
-        let columns: Vec<Vec<f64>> = model
-            .terms
-            .iter()
-            .map(|term| corpus.iter().map(|d| d.by(term.feature) / term.length).collect())
-            .collect();
-        let target: Vec<f64> = pairs.iter().map(|pair| pair.d_prime).collect();
+        let (columns, target) = model.system(pairs);
         for (term, weight) in model.terms.iter_mut().zip(non_negative(&columns, &target)) {
             term.weight = weight;
         }
         Ok(model)
+    }
+
+    /// Returns the normalized distances of each term and the ratings, all multiplied by the root of the pair's weight.
+    fn system(&self, pairs: &[RatedPair]) -> (Vec<Vec<f64>>, Vec<f64>) {
+        let column = |term: &Term| -> Vec<f64> {
+            let entry = |pair: &RatedPair| pair.weight.sqrt() * pair.distances.by(term.feature) / term.length;
+            pairs.iter().map(entry).collect()
+        };
+        let target = pairs.iter().map(|pair| pair.weight.sqrt() * pair.d_prime).collect();
+        (self.terms.iter().map(column).collect(), target)
+    }
+
+    /// Returns the standard errors of the weights of a model that was fitted to these pairs, in the order of
+    /// [`QualityModel::terms`].
+    ///
+    /// They hold if the errors of the pairs are independent and their variances are inversely proportional to the weights of
+    /// the pairs, and if the features were chosen before the pairs were rated. Features that were selected on the same pairs
+    /// have larger errors. `None` for a weight that the constraint holds at 0, and for all if there are no more pairs than
+    /// weights above 0.
+    pub fn standard_errors(&self, pairs: &[RatedPair]) -> Vec<Option<f64>> {
+        let free: Vec<usize> =
+            (0..self.terms.len()).filter(|index| self.terms[*index].weight > 0.0).collect();
+        let Some(dof) = pairs.len().checked_sub(free.len()).filter(|dof| *dof > 0) else {
+            return vec![None; self.terms.len()];
+        };
+        let variance = self.squared_error(pairs) / dof as f64;
+        let (columns, _) = self.system(pairs);
+        let error = |index: usize| {
+            let others = free.iter().filter(|other| **other != index);
+            let others: Vec<Vec<f64>> = others.map(|other| columns[*other].clone()).collect();
+            // Only the part of a column that the others do not explain determines its weight. Columns that depend on each
+            // other do not come out of a fit with weights above 0.
+            let own = least_squares(&others, &columns[index]).ok()?.residuals;
+            let left = dot(&own, &own);
+            (left > 0.0).then(|| (variance / left).sqrt())
+        };
+        let of_term = |index: usize| if free.contains(&index) { error(index) } else { None };
+        (0..self.terms.len()).map(of_term).collect()
+    }
+
+    /// Returns the same model with the lengths that `n_pairs` pairs would have that are like the `n_corpus` pairs of its
+    /// corpus, both above 0. The weights change with the lengths, so that all predictions stay.
+    #[must_use]
+    pub fn at_corpus_size(&self, n_corpus: usize, n_pairs: usize) -> Self {
+        let share = (n_pairs as f64 / n_corpus as f64).sqrt();
+        let scaled = |term: &Term| Term { weight: share * term.weight, length: share * term.length, ..*term };
+        Self { terms: self.terms.iter().map(scaled).collect() }
+    }
+
+    /// Returns the weights that this model has for the features and lengths of `other`; 0 for a feature that it lacks.
+    pub fn weights_at_lengths_of(&self, other: &Self) -> Vec<f64> {
+        let weight = |term: &Term| {
+            let own = self.terms.iter().find(|own| own.feature == term.feature);
+            own.map_or(0.0, |own| own.weight / own.length * term.length)
+        };
+        other.terms.iter().map(weight).collect()
     }
 
     /// Returns features, weights and lengths.
@@ -117,15 +212,17 @@ impl QualityModel {
     /// Returns a model of stored terms.
     ///
     /// # Errors
-    /// [`QualityModelError::Nothing`] without terms; [`QualityModelError::Constant`] for a length that is not finite
-    /// and above 0, or a negative weight.
+    /// [`QualityModelError::Nothing`] without terms; [`QualityModelError::Term`] for a length that is not finite and
+    /// above 0, or a weight that is not finite and 0 or more.
     pub fn of_terms(terms: Vec<Term>) -> Result<Self, QualityModelError> {
         if terms.is_empty() {
             return Err(QualityModelError::Nothing);
         }
-        match terms.iter().find(|term| !(term.length > 0.0 && term.length.is_finite() && term.weight >= 0.0))
-        {
-            Some(term) => Err(QualityModelError::Constant { feature: term.feature }),
+        let is_possible = |term: &Term| {
+            term.length > 0.0 && term.length.is_finite() && term.weight >= 0.0 && term.weight.is_finite()
+        };
+        match terms.iter().find(|term| !is_possible(term)) {
+            Some(term) => Err(QualityModelError::Term { feature: term.feature }),
             None => Ok(Self { terms }),
         }
     }
@@ -140,138 +237,28 @@ impl QualityModel {
         self.terms.iter().map(|term| (term.feature, term.weight * distances.by(term.feature) / term.length))
     }
 
-    /// Returns the sum of squared errors of predicted d′.
+    /// Returns the sum of squared errors of predicted d′, each times the weight of its pair.
     pub fn squared_error(&self, pairs: &[RatedPair]) -> f64 {
-        pairs.iter().map(|pair| (self.d_prime(&pair.distances) - pair.d_prime).powi(2)).sum()
+        let error = |pair: &RatedPair| self.d_prime(&pair.distances) - pair.d_prime;
+        pairs.iter().map(|pair| pair.weight * error(pair).powi(2)).sum()
     }
 
-    /// Returns `R² = 1 - Σ error² / Σ (d′ - mean)²` on these pairs; `None` if all ratings are equal.
+    /// Returns `R² = 1 - Σ w error² / Σ w (d′ - mean)²` on these pairs, with the weights w of the pairs and the weighted
+    /// mean; `None` if all ratings are equal.
     pub fn r_squared(&self, pairs: &[RatedPair]) -> Option<f64> {
         r_squared(self.squared_error(pairs), pairs)
     }
 }
 
-fn r_squared(squared_error: f64, pairs: &[RatedPair]) -> Option<f64> {
+/// As [`QualityModel::r_squared`], from the weighted sum of squared errors.
+pub(super) fn r_squared(squared_error: f64, pairs: &[RatedPair]) -> Option<f64> {
     let rated: Vec<f64> = pairs.iter().map(|pair| pair.d_prime).collect();
-    let centered = centered(&rated);
-    let all = dot(&centered, &centered);
+    if is_constant(&rated) {
+        return None;
+    }
+    let weights: Vec<f64> = pairs.iter().map(|pair| pair.weight).collect();
+    let all = weights.iter().sum::<f64>() * weighted_variance(&rated, &weights);
     (all > 0.0).then(|| 1.0 - squared_error / all)
-}
-
-/// Result of backward elimination.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Elimination {
-    /// Remaining features, in the order of [`Feature::ALL`].
-    pub kept: Vec<Feature>,
-    /// Removed features, first to last, each with the sum of squared errors after its removal.
-    pub dropped: Vec<(Feature, f64)>,
-}
-
-/// Returns the result of backward elimination: removes the feature that raises the error least, step by step.
-///
-/// It stops before the sum of squared errors would exceed that of all features by more than `tolerance` (0.1 for 10 %).
-/// Features with zero distances throughout are removed first and not listed as dropped.
-///
-/// # Errors
-/// [`QualityModelError::Nothing`].
-pub fn eliminate(
-    features: &[Feature],
-    pairs: &[RatedPair],
-    tolerance: f64,
-) -> Result<Elimination, QualityModelError> {
-    if pairs.is_empty() {
-        return Err(QualityModelError::Nothing);
-    }
-    let differs = |feature: &Feature| pairs.iter().any(|pair| pair.distances.by(*feature) > 0.0);
-    let mut kept: Vec<Feature> = features.iter().copied().filter(differs).collect();
-    kept.sort();
-    let error = |features: &[Feature]| Ok(QualityModel::fitted(features, pairs)?.squared_error(pairs));
-    let limit = (1.0 + tolerance) * error(&kept)?;
-    let mut dropped = Vec::new();
-    while kept.len() > 1 {
-        let mut without: Vec<(usize, f64)> = Vec::with_capacity(kept.len());
-        for index in 0..kept.len() {
-            let rest: Vec<Feature> = kept.iter().copied().filter(|feature| *feature != kept[index]).collect();
-            without.push((index, error(&rest)?));
-        }
-        let Some((index, error)) = without.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)) else { break };
-        if error > limit {
-            break;
-        }
-        dropped.push((kept.remove(index), error));
-    }
-    Ok(Elimination { kept, dropped })
-}
-
-/// A model fitted to some textures and evaluated on all.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Rotation {
-    /// Left-out textures.
-    pub left_out: [usize; 2],
-    /// Model fitted to the other textures.
-    pub model: QualityModel,
-    /// Sum of squared errors over all textures.
-    pub squared_error: f64,
-    /// Sum of squared errors over the left-out textures, which are out-of-sample.
-    pub squared_error_left_out: f64,
-}
-
-/// Returns one model for each pair of left-out textures, sorted by error over all textures, best first.
-///
-/// The paper reports the best rotation, which is optimistic. The unbiased figure is `squared_error_left_out` over all
-/// rotations.
-///
-/// # Errors
-/// [`QualityModelError::Textures`], and those of [`QualityModel::fitted`].
-pub fn rotate(features: &[Feature], pairs: &[RatedPair]) -> Result<Vec<Rotation>, QualityModelError> {
-    let textures = textures(pairs)?;
-    let mut rotations = Vec::new();
-    for (i, first) in textures.iter().enumerate() {
-        for second in &textures[i + 1..] {
-            let left_out = [*first, *second];
-            let (out, used) = without(&left_out, pairs);
-            let model = QualityModel::fitted(features, &used)?;
-            let squared_error_left_out = model.squared_error(&out);
-            let squared_error = squared_error_left_out + model.squared_error(&used);
-            rotations.push(Rotation { left_out, model, squared_error, squared_error_left_out });
-        }
-    }
-    rotations.sort_by(|a, b| a.squared_error.total_cmp(&b.squared_error));
-    Ok(rotations)
-}
-
-/// Returns the nested leave-one-texture-out R²: `1 - Σ error² / Σ (d′ - mean)²`; `None` if all ratings are equal.
-///
-/// Each texture in turn is left out of both feature selection and weight fit, so it is fully out-of-sample.
-///
-/// # Errors
-/// [`QualityModelError::Textures`], and those of [`eliminate`].
-pub fn nested_r_squared(
-    features: &[Feature],
-    pairs: &[RatedPair],
-    tolerance: f64,
-) -> Result<Option<f64>, QualityModelError> {
-    let mut squared_error = 0.0;
-    for texture in textures(pairs)? {
-        let (out, used) = without(&[texture], pairs);
-        let kept = eliminate(features, &used, tolerance)?.kept;
-        squared_error += QualityModel::fitted(&kept, &used)?.squared_error(&out);
-    }
-    Ok(r_squared(squared_error, pairs))
-}
-
-/// Returns the distinct textures of the pairs, at least three.
-fn textures(pairs: &[RatedPair]) -> Result<Vec<usize>, QualityModelError> {
-    let mut textures: Vec<usize> = pairs.iter().map(|pair| pair.texture).collect();
-    textures.sort_unstable();
-    textures.dedup();
-    let n = textures.len();
-    if n < 3 { Err(QualityModelError::Textures { n }) } else { Ok(textures) }
-}
-
-/// Returns the pairs of the left-out textures, and all others.
-fn without(left_out: &[usize], pairs: &[RatedPair]) -> (Vec<RatedPair>, Vec<RatedPair>) {
-    pairs.iter().cloned().partition(|pair| left_out.contains(&pair.texture))
 }
 
 /// Returns the non-negative least-squares coefficients.

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::{
     Distances, Feature, PAPER_FEATURES, PAPER_WEIGHTS, QualityError, QualityMeter, QualityModel,
-    QualityModelError, RatedPair, eliminate, nested_r_squared, rotate, spqi, st_sim,
+    QualityModelError, RatedPair, Term, eliminate, nested_validation, rotate, spqi, st_sim,
 };
 use crate::dsp::spectrum::rms;
 use crate::dsp::threshold::Threshold;
@@ -155,15 +155,20 @@ fn likenesses_of_others_fall_with_noise() {
     }
 }
 
-/// Pairs whose ratings depend on two features plus noise; the other features are noise.
-fn rated(n_textures: usize, noise: f64, seed: u64) -> Vec<RatedPair> {
+/// Simulated pairs: ratings depend on two features plus noise; the other features are noise.
+pub(super) fn rated(n_textures: usize, noise: f64, seed: u64) -> Vec<RatedPair> {
     let mut random = Random::new(seed);
     let mut pairs = Vec::new();
     for texture in 0..n_textures {
         for _ in 0..5 {
             let distances = Distances(std::array::from_fn(|_| random.uniform()));
             let truth = 2.0 * distances.by(Feature::Roughness) + 0.5 * distances.by(Feature::Envelope);
-            pairs.push(RatedPair { texture, distances, d_prime: truth + noise * random.normal() });
+            pairs.push(RatedPair {
+                texture,
+                distances,
+                d_prime: truth + noise * random.normal(),
+                weight: 1.0,
+            });
         }
     }
     pairs
@@ -183,7 +188,7 @@ fn features_that_say_something_are_kept_and_their_weights_found() {
     let rotations = rotate(&elimination.kept, &pairs).unwrap();
     assert_eq!(rotations.len(), 10);
     assert!(rotations.windows(2).all(|w| w[0].squared_error <= w[1].squared_error));
-    assert!(nested_r_squared(&Feature::ALL, &pairs, 0.5).unwrap().unwrap() > 0.97);
+    assert!(nested_validation(&Feature::ALL, &pairs, 0.5).unwrap().r_squared.unwrap() > 0.97);
 }
 
 /// With random ratings, the best in-sample R² still looks good, but the nested R² does not.
@@ -198,7 +203,7 @@ fn chance_is_not_taken_for_knowledge() {
     };
     let kept = eliminate(&Feature::ALL, &pairs, 0.1).unwrap().kept;
     let in_sample = QualityModel::fitted(&kept, &pairs).unwrap().r_squared(&pairs).unwrap();
-    let nested = nested_r_squared(&Feature::ALL, &pairs, 0.1).unwrap().unwrap();
+    let nested = nested_validation(&Feature::ALL, &pairs, 0.1).unwrap().r_squared.unwrap();
     assert!(nested < in_sample - 0.1, "{nested} of {in_sample}");
 }
 
@@ -220,6 +225,12 @@ fn the_papers_weights_reach_the_papers_range() {
     let constant = QualityModelError::Constant { feature: Feature::Envelope };
     assert_eq!(QualityModel::weighted(&weights, &flat), Err(constant));
     assert_eq!(QualityModel::weighted(&[], &flat), Err(QualityModelError::Nothing));
+    for wrong in [-1.0, f64::NAN, f64::INFINITY] {
+        let term = Term { feature: Feature::Envelope, weight: wrong, length: 1.0 };
+        let impossible = Err(QualityModelError::Term { feature: Feature::Envelope });
+        assert_eq!(QualityModel::of_terms(vec![term]), impossible);
+        assert_eq!(QualityModel::of_terms(vec![Term { weight: 1.0, length: wrong, ..term }]), impossible);
+    }
     assert_eq!(rotate(&Feature::ALL, &rated(2, 0.0, 1)), Err(QualityModelError::Textures { n: 2 }));
 }
 

@@ -164,15 +164,15 @@ impl Models {
     }
 
     /// Texture of the field at a point, moved towards a pinned texture by the weight in `lock`; with friction, tap and the
-    /// grains across and along the lay of `axes` only.
+    /// grains across and along the lay of `axes` only. `weights` are those of the sites at the point ([`Models::weights`]).
     pub(super) fn texture(
         &self,
-        at: SpacePoint,
+        (at, weights): (SpacePoint, &[f64]),
         axes: &MeanAxes,
         lock: Option<(usize, f64)>,
     ) -> Result<TextureModel, TextureModelError> {
         let own = |(texture, share): (usize, f64)| Some((self.site(texture)?.at(at), share));
-        self.field.texture(&self.sampling, at.unit(), axes, lock.and_then(own))
+        self.field.texture(&self.sampling, (at.unit(), weights), axes, lock.and_then(own))
     }
 
     /// Weighted sum of the textures' reliefs; `None` if no texture has one.
@@ -224,9 +224,15 @@ impl Models {
         MeanAxes::mean(parts.map(|(site, weight)| (site.turn_rad, weight)))
     }
 
-    /// Weight of each texture in the field at a point.
-    pub(super) fn weights(&self, at: SpacePoint) -> Vec<(usize, f64)> {
-        self.sites.iter().map(|site| site.texture).zip(self.field.weights(at.unit())).collect()
+    /// Weight of each site in the field at a point, in the order of the sites. With many textures, this is the slowest part of
+    /// the interpolation.
+    pub(super) fn weights(&self, at: SpacePoint) -> Vec<f64> {
+        self.field.weights(at.unit())
+    }
+
+    /// Library indices of the sites, with these weights.
+    pub(super) fn weighted_textures(&self, weights: &[f64]) -> Vec<(usize, f64)> {
+        self.sites.iter().map(|site| site.texture).zip(weights.iter().copied()).collect()
     }
 
     /// Farthest point to which the field extrapolates from a point of the hull towards one outside.

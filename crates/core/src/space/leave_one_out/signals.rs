@@ -16,9 +16,9 @@ pub(super) struct Rendered {
     /// Distance between the signals of interpolated and original texture, in dB.
     pub(super) error_db: f64,
     /// Distance between their models, in dB.
-    model_error_db: f64,
+    pub(super) model_error_db: f64,
     /// Distance between the interpolated signal and its own model, in dB.
-    from_model_db: f64,
+    pub(super) from_model_db: f64,
 }
 
 /// Renders the original and every predicted texture and compares the signals. `authored` holds the profiles of `made`.

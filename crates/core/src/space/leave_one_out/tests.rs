@@ -1,13 +1,15 @@
 use std::sync::Arc;
 
 use crate::maths::rng::Random;
+use crate::maths::shard::Shard;
 use crate::maths::statistics::mean;
 use crate::space::SpacePoint;
 use crate::space::authoring::{Authoring, Blending, BlendingError, Layers, Models, Weights};
 use crate::space::fidelity::{Channels, Profile, error_db, shape_error_db};
 use crate::space::leave_one_out::rest::{Made, Placed, Rests, is_inside};
 use crate::space::leave_one_out::{
-    LeaveOneOut, LeaveOneOutError, Method, Plan, SignalPlan, leave_one_out, measure, rest_of,
+    LeaveOneOut, LeaveOneOutError, LeaveOneOutPart, Method, PartsError, Plan, SignalPlan, join_parts,
+    leave_one_out, leave_one_out_part, measure, rest_of,
 };
 use crate::texture::blend::Mode;
 use crate::texture::plane::Plane;
@@ -66,7 +68,8 @@ fn an_oracle_is_right_and_its_opposite_wrong() {
     };
     // Only the number of methods matters here, not which they are.
     let methods = vec![Method::Nearest, Method::Nearest];
-    let measured = measure(&textures, methods, None, &mut author, &mut |_, _| true).unwrap();
+    let part = measure(&textures, (None, Shard::WHOLE), &mut author, &mut |_, _| true).unwrap();
+    let measured = part.alone(methods, None);
     assert_eq!((measured.textures.len(), measured.on_hull.as_slice()), (8, &[0, 1, 2, 3][..]));
     let [right, wrong] = measured.methods.as_slice() else { unreachable!() };
     assert_eq!((right.error_db_mean, right.level_error_db_mean, right.shape_error_db_mean), (0.0, 0.0, 0.0));
@@ -267,4 +270,34 @@ fn nonsense_is_refused_and_a_caller_can_stop() {
     more.insert(0, (two_resonances(&[0.1], &[1.0]), None));
     let measured = run(&more, &all_modes()).unwrap();
     assert_eq!(measured.textures.iter().map(|left| left.texture).collect::<Vec<_>>(), [5, 6, 7]);
+}
+
+/// To the bit, with rendered signals, and in any order of the parts.
+#[test]
+fn the_parts_of_an_evaluation_are_the_whole() {
+    let world = world(7, 3.0);
+    let signals = Some(SignalPlan { n_textures: 2, seconds: 4.0, seed: 3 });
+    let plan = Plan { blendings: vec![Mode::Field.into(), Mode::Power.into()], signals };
+    let part = |number: usize, of: usize| {
+        let shard = Shard::new(number, of).unwrap();
+        leave_one_out_part(&lent(&world), &plan, shard, &mut |_, _| true).unwrap()
+    };
+    let whole = run(&world, &plan).unwrap();
+    assert!(whole.methods.iter().all(|summary| summary.signals.is_some()));
+    let parts: Vec<LeaveOneOutPart> = [3, 1, 2].into_iter().map(|number| part(number, 3)).collect();
+    assert_eq!(join_parts(&plan, parts.clone()), Ok(whole.clone()));
+    assert_eq!(join_parts(&plan, vec![part(1, 1)]), Ok(whole));
+    let shard = |number| Shard::new(number, 3).unwrap();
+    let without = parts[..2].to_vec();
+    assert_eq!(join_parts(&plan, without), Err(PartsError::Missing { shard: shard(2) }));
+    let twice = [&parts[..], &parts[..1]].concat();
+    assert_eq!(join_parts(&plan, twice), Err(PartsError::Twice { shard: shard(3) }));
+    let mut other = parts.clone();
+    other[1].reach_db += 1.0;
+    let error = PartsError::Other { shard: shard(1), first: shard(3) };
+    assert_eq!(join_parts(&plan, other), Err(error));
+    // A plan with another number of methods.
+    let fewer = Plan { blendings: vec![Mode::Field.into()], ..plan.clone() };
+    assert!(matches!(join_parts(&fewer, parts), Err(PartsError::Other { .. })));
+    assert_eq!(join_parts(&plan, Vec::new()), Err(PartsError::Empty));
 }

@@ -7,8 +7,9 @@ use shagreen_synth::texture::Evaluated;
 use shagreen_synth::voice::{MAX_TICK, Voice};
 
 use crate::texture::{
-    FORCES_N, GAINS, Grain, GrainNode, LEVELS_MPS2, MAX_NODES, MAX_ORDER, MIN_LSF_GAP, MIN_NODE_DISTANCE,
-    MIN_PUBLISHED_LSF_GAP, PublishedNode, RATES_HZ, SPEEDS_MPS, TextureModelError, VARIANCES,
+    FORCES_N, GAINS, Grain, GrainNode, LEVELS_MPS2, MAX_MA_ORDER, MAX_NODES, MAX_ORDER, MIN_LSF_GAP,
+    MIN_NODE_DISTANCE, MIN_PUBLISHED_LSF_GAP, PublishedNode, RATES_HZ, SPEEDS_MPS, TextureModelError,
+    VARIANCES,
 };
 use crate::units::Hertz;
 
@@ -104,7 +105,7 @@ pub(super) fn published(nodes: &[PublishedNode]) -> Result<(), TextureModelError
         if node.ar_lsf.len() != order || order == 0 || order > MAX_ORDER {
             return Err(TextureModelError::Order { index, order: node.ar_lsf.len() });
         }
-        if node.ma_lsf.len() != ma_order || ma_order > MAX_ORDER {
+        if node.ma_lsf.len() != ma_order || ma_order > MAX_MA_ORDER {
             return Err(TextureModelError::MaOrder { index, order: node.ma_lsf.len() });
         }
         for (part, lsf) in [("AR", &node.ar_lsf), ("MA", &node.ma_lsf)] {
@@ -157,8 +158,8 @@ const DECAYED: f64 = 1e-9;
 /// frequencies describe a stable filter, but if many of them are close together, its `f32` coefficients need not be
 /// stable.
 pub(in crate::texture) fn decays(lsf: &[f64]) -> bool {
-    let silent = [0.0; MAX_ORDER];
-    let mut at = Evaluated { lsf: silent, ma_lsf: silent, ma_order: 0, level_mps2: 1.0, sigma_mps2: 1.0 };
+    let (own, ma_lsf) = ([0.0; MAX_ORDER], [0.0; MAX_MA_ORDER]);
+    let mut at = Evaluated { lsf: own, ma_lsf, ma_order: 0, level_mps2: 1.0, sigma_mps2: 1.0 };
     for (to, from) in at.lsf.iter_mut().zip(lsf) {
         *to = *from as f32;
     }

@@ -1,7 +1,8 @@
 //! Errors of texture models.
 
 use crate::texture::{
-    MAX_NODES, MAX_ORDER, MAX_RADIAL_NODES, MIN_LSF_GAP, MIN_NODE_DISTANCE, MIN_PUBLISHED_LSF_GAP,
+    MAX_MA_ORDER, MAX_NODES, MAX_ORDER, MAX_RADIAL_NODES, MIN_LSF_GAP, MIN_NODE_DISTANCE,
+    MIN_PUBLISHED_LSF_GAP,
 };
 
 /// Error of creating a texture model.
@@ -68,7 +69,7 @@ pub enum TextureModelError {
         second: usize,
     },
     /// Nodes of a published texture differ in the order of their moving-average part, or the order is not supported.
-    #[error("node {index} has {order} line spectral frequencies of its moving-average part; every node needs the same number, 0 to {max}", max = MAX_ORDER)]
+    #[error("node {index} has {order} line spectral frequencies of its moving-average part; every node needs the same number, 0 to {max}", max = MAX_MA_ORDER)]
     MaOrder {
         /// Index of the node.
         index: usize,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use shagreen_synth::stick_slip::Friction;
-use shagreen_synth::texture::{Along, Excitation, MAX_ORDER, NO_NEIGHBOR, Node, Parts, Texture, Triangle};
+use shagreen_synth::texture::{Along, Excitation, NO_NEIGHBOR, Node, Parts, Texture, Triangle};
 
 use crate::maths::triangulation::weights_at;
 use crate::texture::height_map::HeightMapLevels;
@@ -121,8 +121,8 @@ fn excitation(vertex: &Vertex) -> Option<Excitation> {
     }
 }
 
-fn narrow(lsf: &[f64]) -> [f32; MAX_ORDER] {
-    let mut out = [0.0; MAX_ORDER];
+fn narrow<const N: usize>(lsf: &[f64]) -> [f32; N] {
+    let mut out = [0.0; N];
     for (narrow, wide) in out.iter_mut().zip(lsf) {
         *narrow = *wide as f32;
     }

@@ -1,7 +1,7 @@
 use super::{Plane, Prepared};
 use crate::dsp::lsf::repair;
 use crate::maths::rng::lcg_noise;
-use crate::texture::test_textures::two_resonances as texture;
+use crate::texture::test_textures::{arma, two_resonances as texture};
 use crate::texture::{FORCES_N, GrainNode, LEVELS_MPS2, MIN_LSF_GAP, SPEEDS_MPS, TextureModel};
 use crate::units::{Contact, Hertz, MetersPerSecond, Newtons};
 use proptest::bool;
@@ -33,6 +33,20 @@ fn measured_nodes_are_met_exactly_and_silence_on_the_axes() {
     }
     for (mm_per_s, n) in [(0.0, 1.0), (100.0, 0.0), (0.0, 0.0), (-5.0, 1.0), (f64::NAN, 1.0)] {
         assert_eq!(plane.at(Contact::from_mm_per_s_and_n(mm_per_s, n)).level_mps2, 0.0);
+    }
+}
+
+#[test]
+fn bands_share_the_squared_level() {
+    let edges = [0.0, 50.0, 125.0, 315.0, 500.0].map(Hertz);
+    for texture in [grid(), arma(18, 16)] {
+        let plane = Plane::new(&texture);
+        for contact in texture.contacts() {
+            let grain = plane.at(contact);
+            let power: f64 = grain.band_powers(&edges).iter().map(|band| band.power).sum();
+            // Rounding errors of polynomials of order 18, as in the test of the published spectrum, and of the integral.
+            assert!((power - grain.level_mps2.powi(2)).abs() <= 1e-6 * power, "{power} at {contact:?}");
+        }
     }
 }
 

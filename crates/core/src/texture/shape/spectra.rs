@@ -4,10 +4,10 @@ use crate::dsp::ar::{self, levinson};
 use crate::dsp::arma;
 use crate::dsp::lsf::{ar_from_lsf, lsf_from_ar, repair_to};
 use crate::texture::model::decays;
-use crate::texture::refit::{FAINTEST, Lags, SpectrumGrid};
+use crate::texture::refit::{FAINTEST, LEAST_ORDER, SpectrumGrid};
 use crate::texture::shape::Shape;
 use crate::texture::{
-    GAINS, Grain, GrainNode, Interpolation, LEVELS_MPS2, MAX_ORDER, MIN_LSF_GAP, PublishedNode, TextureModel,
+    GAINS, Grain, GrainNode, Interpolation, LEVELS_MPS2, MIN_LSF_GAP, PublishedNode, TextureModel,
     TextureModelError,
 };
 use crate::units::Hertz;
@@ -39,11 +39,11 @@ struct Refit {
 }
 
 impl NodeShaper {
-    /// Shaper for nodes of this rate; `None` if the shape leaves all nodes as they are. The values of the shape must be
+    /// Shaper for the nodes of a model; `None` if the shape leaves all nodes as they are. The values of the shape must be
     /// in their ranges.
-    pub(super) fn new(rate: Hertz, shape: &Shape) -> Option<Self> {
+    pub(super) fn new(model: &TextureModel, shape: &Shape) -> Option<Self> {
         let is_refit = shape.grain != 1.0 || shape.brightness_db_per_octave != 0.0;
-        let refit = is_refit.then(|| Refit::new(rate, shape.grain, shape.brightness_db_per_octave));
+        let refit = is_refit.then(|| Refit::new(model, shape.grain, shape.brightness_db_per_octave));
         (is_refit || shape.level_db != 0.0).then(|| Self { level: shape.level_factor(), refit })
     }
 
@@ -105,8 +105,9 @@ impl Refit {
     /// The spectrum `S(f)` becomes `S(g f) T(f)` with the grain size `g` and the tilt `T`.
     ///
     /// A filter that is fitted at `g` times the rate and run at the rate itself has all its frequencies divided by `g`.
-    fn new(rate: Hertz, grain: f64, brightness_db_per_octave: f64) -> Self {
-        let grid = SpectrumGrid::new(rate, Hertz(grain * rate.0));
+    fn new(model: &TextureModel, grain: f64, brightness_db_per_octave: f64) -> Self {
+        let rate = model.rate();
+        let grid = SpectrumGrid::new(rate, Hertz(grain * rate.0), model.order().max(LEAST_ORDER));
         // A slope of b dB an octave is a density of f^(b / 10 log10(2)).
         let exponent = 0.05 * brightness_db_per_octave / 2_f64.log10();
         let square = |hz: f64| hz * hz + FLAT_BELOW_HZ * FLAT_BELOW_HZ;
@@ -137,13 +138,13 @@ impl Refit {
 
 /// Line spectral frequencies of the predictor of an autocorrelation, with peaks wide enough for the renderer. `None` if
 /// there is no such predictor, which happens for no autocorrelation of a positive spectrum.
-fn playable(lags: &Lags) -> Option<Vec<f64>> {
+fn playable(lags: &[f64]) -> Option<Vec<f64>> {
     let widenings = (0..N_WIDENINGS).map(|i| LEAST_WIDENING * 2_f64.powi(i));
     std::iter::once(0.0).chain(widenings).find_map(|widening| {
         // A Gaussian window over the lags convolves the spectrum with a Gaussian.
         let window = |k: usize| (-0.5 * (widening * k as f64).powi(2)).exp();
         let windowed: Vec<f64> = lags.iter().enumerate().map(|(k, lag)| window(k) * lag).collect();
-        let lsf = repair_to(lsf_from_ar(&levinson(&windowed, MAX_ORDER).ar)?, GAP);
+        let lsf = repair_to(lsf_from_ar(&levinson(&windowed, lags.len() - 1).ar)?, GAP);
         decays(&lsf).then_some(lsf)
     })
 }

@@ -9,11 +9,12 @@ use crate::dsp::spectrum::centroid;
 use crate::texture::height_map::{HeightMap, HeightMapOptions};
 use crate::texture::plane::Plane;
 use crate::texture::profile::Profile;
+use crate::texture::refit::LEAST_ORDER;
 use crate::texture::relief::Relief;
 use crate::texture::stick_slip::StickSlip;
 use crate::texture::tap::Tap;
 use crate::texture::test_textures::{arma, two_resonances};
-use crate::texture::{GrainNode, Interpolation, MAX_ORDER, TextureModel};
+use crate::texture::{GrainNode, Interpolation, TextureModel};
 use crate::units::{Hertz, MetersPerSecond, Newtons};
 use proptest::prelude::{Strategy, any, prop_assert, prop_assert_eq, proptest};
 
@@ -206,7 +207,7 @@ fn levels_are_exact() {
         );
     }
     let shaped = Shape { grain: 2.0, ..neutral() }.apply(&arma(18, 16)).unwrap();
-    assert_eq!((shaped.order(), shaped.ma_order()), (MAX_ORDER, 0));
+    assert_eq!((shaped.order(), shaped.ma_order()), (LEAST_ORDER, 0));
 }
 
 /// The integral of `A e^{-Bt} sin ωt` is `A ω / (ω² + B²)`.

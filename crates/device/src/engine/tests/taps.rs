@@ -3,11 +3,12 @@
 use std::time::Instant;
 
 use shagreen_synth::contact::Contact;
+use shagreen_synth::impact::TAP_SHARE;
 use shagreen_synth::tap::Tap;
 
 use super::{CONFIG, HAND, peak, play, stroking, track};
 use crate::controls::{Input, Takeover};
-use crate::engine::{Engine, Handle, TAP_SHARE, new};
+use crate::engine::{Engine, Handle, new};
 use crate::live::LiveInput;
 use crate::touch::Touch;
 

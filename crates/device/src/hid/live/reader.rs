@@ -8,9 +8,12 @@ use std::time::{Duration, Instant};
 use rtrb::Producer;
 
 use crate::error::{DeviceError, DeviceErrorKind};
+use crate::hid::choice::{AUTOMATIC_ID, chosen};
 use crate::hid::descriptor::{self, MAX_REPORT_BYTES};
 use crate::hid::identity::HidPen;
-use crate::hid::live::{LOOK_AGAIN, PenBus, PenNotice, PenOptions, READ_TIMEOUT, ReportSource, Shared};
+use crate::hid::live::{
+    LOOK_AGAIN, LOOK_AGAIN_AUTOMATICALLY, PenBus, PenNotice, PenOptions, READ_TIMEOUT, ReportSource, Shared,
+};
 use crate::hid::pen::PenDecoder;
 use crate::hid::tracker::{PenTracker, TrackedSample};
 use crate::live::LiveInput;
@@ -32,6 +35,7 @@ pub(super) enum Command {
     Map(PressureMap),
     Size(Option<[f64; 2]>),
     Doorbell(Doorbell),
+    Active(bool),
 }
 
 /// An open pen.
@@ -54,6 +58,8 @@ pub(super) struct Reader {
     started: Instant,
     last_reason: Option<DeviceError>,
     doorbell: Option<Doorbell>,
+    /// Whether reports are passed on.
+    is_active: bool,
 }
 
 impl Reader {
@@ -77,6 +83,7 @@ impl Reader {
             started: Instant::now(),
             last_reason: None,
             doorbell: None,
+            is_active: true,
         }
     }
 
@@ -99,7 +106,8 @@ impl Reader {
             }
             if let Err(error) = self.look() {
                 self.wait_for(error);
-                match wait(commands, LOOK_AGAIN) {
+                let is_automatic = self.options.id == AUTOMATIC_ID;
+                match wait(commands, if is_automatic { LOOK_AGAIN_AUTOMATICALLY } else { LOOK_AGAIN }) {
                     Waited::Command(command) => self.obey(command),
                     Waited::Time => {}
                     Waited::End => return self.live,
@@ -118,6 +126,12 @@ impl Reader {
                 }
             }
             Command::Doorbell(doorbell) => self.doorbell = Some(doorbell),
+            Command::Active(is_active) => {
+                if !is_active {
+                    self.lift();
+                }
+                self.is_active = is_active;
+            }
             Command::Size(size_m) if size_m == self.options.size_m => {}
             Command::Size(size_m) => {
                 self.options.size_m = size_m;
@@ -133,11 +147,7 @@ impl Reader {
 
     /// Searches for the pen and opens it.
     fn look(&mut self) -> Result<(), DeviceError> {
-        let id = &self.options.id;
-        let pen = self.bus.list()?.into_iter().find(|pen| pen.id == *id).ok_or_else(|| {
-            let message = format!("the pen {id} is not connected; plug it in, or choose another");
-            DeviceError::new(DeviceErrorKind::NotFound, message)
-        })?;
+        let pen = chosen(self.bus.list()?, &self.options.id)?;
         let mut source = self.bus.open(&pen)?;
         let declared = decoder_of(&source.descriptor()?, &pen)?;
         let tracker =
@@ -158,6 +168,7 @@ impl Reader {
             is_size_doubtful: format.is_size_doubtful,
             has_pressure: format.pressure.is_some(),
             full_n: format.pressure.and_then(|pressure| pressure.full_n),
+            provides: format.provides(),
         });
     }
 
@@ -176,6 +187,9 @@ impl Reader {
                     return;
                 };
                 self.shared.n_reports.fetch_add(1, Ordering::Relaxed);
+                if !self.is_active {
+                    return;
+                }
                 self.tell_engine(&moment, now);
                 if self.moments.push(moment).is_err() {
                     self.shared.n_dropped.fetch_add(1, Ordering::Relaxed);

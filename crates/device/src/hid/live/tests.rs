@@ -7,6 +7,7 @@ use super::{PenBus, PenNotice, PenOptions, PenThread, ReportSource};
 use crate::controls::Input;
 use crate::engine::ChannelMask;
 use crate::error::{DeviceError, DeviceErrorKind};
+use crate::hid::choice::AUTOMATIC_ID;
 use crate::hid::descriptor::tests::PEN;
 use crate::hid::identity::{HidBus, HidPen, denied, with_ids};
 use crate::hid::tracker::TrackerOptions;
@@ -14,6 +15,7 @@ use crate::hid::tracker::tests::{DOWN, HOVER, report};
 use crate::kinematics::SpeedFilter;
 use crate::output::tests::OPTIONS;
 use crate::output::{OpenOptions, open_null_with_tap};
+use crate::pen_backend::{Access, Backend, Provides};
 use crate::pressure::PressureMap;
 use crate::texture::tests::white;
 use shagreen_synth::drive::DriveConfig;
@@ -44,7 +46,9 @@ fn pen(serial: &str) -> HidPen {
         interface: None,
         path: format!("/dev/{serial}"),
         bus: HidBus::Usb,
-        has_pressure: None,
+        backend: Backend::Hid,
+        provides: Provides::UNKNOWN,
+        access: Access::Unknown,
     }
 }
 
@@ -350,4 +354,37 @@ fn a_ring_that_nobody_empties_is_counted_and_harmless() {
     let begun = Instant::now();
     drop(thread);
     assert!(begun.elapsed() < Duration::from_secs(1));
+}
+
+#[test]
+fn any_pen_is_read_automatically_and_a_pause_lifts_it() {
+    let machine = Machine::new(&[]);
+    let options = PenOptions { id: AUTOMATIC_ID.to_owned(), ..options("a") };
+    machine.plug(&["b", "a"]);
+    let mut thread = PenThread::start(machine.clone(), options, None).unwrap();
+    let PenNotice::Connected { pen, provides, .. } = notice(&thread) else { panic!("not connected") };
+    // Equal pens are chosen by their id, so that the choice is the same every time.
+    assert_eq!((pen.id.as_str(), provides.pressure), ("hid:0001:0002:a", Some(true)));
+    machine.send(report(1000, 1000, 2039, DOWN));
+    wait_for(&thread, 1);
+    assert!(thread.next_moment().is_some());
+    thread.set_active(false);
+    std::thread::sleep(Duration::from_millis(50));
+    machine.send(report(1100, 1000, 2039, DOWN));
+    wait_for(&thread, 2);
+    assert!(thread.next_moment().is_none(), "a report is counted only");
+    thread.set_active(true);
+    std::thread::sleep(Duration::from_millis(50));
+    machine.send(report(1200, 1000, 2039, DOWN));
+    wait_for(&thread, 3);
+    assert!(thread.next_moment().is_some());
+}
+
+#[test]
+fn without_a_pen_the_automatic_choice_waits() {
+    let options = PenOptions { id: AUTOMATIC_ID.to_owned(), ..options("a") };
+    let thread = PenThread::start(Machine::new(&[]), options, None).unwrap();
+    assert!(
+        matches!(notice(&thread), PenNotice::Waiting(error) if error.kind() == DeviceErrorKind::NotFound)
+    );
 }

@@ -76,6 +76,7 @@ fn what_render_wrote_comes_back_with_its_trace() {
         channels: vec!["acceleration".into()],
         rate_hz: 1000,
         seconds: 0.003,
+        loops: false,
         name: None,
         texture: None,
         at: None,

@@ -1,6 +1,7 @@
 //! Angles of the directions of one texture.
 
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 
 use shagreen_formats::recording::directional::{NamedDirections, mean_direction_rad};
 
@@ -8,6 +9,9 @@ use crate::import::directional::DirectionalError;
 
 /// Sine of the angle between the axes that a name and the positions give, from which on the difference is reported: 15°.
 const OTHER_AXIS: f64 = 0.26;
+
+/// Number of directions whose axes show that names count angles clockwise.
+const MIN_CLOCKWISE: usize = 2;
 
 /// Angle in rad of each direction of the strokes, which are given as the direction of the file name and the direction of
 /// the positions.
@@ -26,9 +30,11 @@ pub(super) fn angles_rad(
     }
     let mut angles_rad = BTreeMap::new();
     let (mut unknown, mut others, mut is_counted) = (Vec::new(), Vec::new(), false);
+    let is_clockwise = are_clockwise(&moved, named);
     for (direction, moved_rad) in moved {
         let stated = stated_deg.get(direction).map(|degrees| degrees.to_radians());
-        let by_name = named.angles_rad.get(direction).copied().flatten();
+        let named_rad = named.angles_rad.get(direction).copied().flatten();
+        let by_name = named_rad.map(|rad| if is_clockwise { (TAU - rad).rem_euclid(TAU) } else { rad });
         let by_motion = mean_direction_rad(&moved_rad);
         if stated.is_none()
             && let Some((name_rad, motion_rad)) = by_name.zip(by_motion)
@@ -50,6 +56,12 @@ pub(super) fn angles_rad(
             others.join(", ")
         ));
     }
+    if is_clockwise {
+        warnings.push(
+            "the names of the directions count angles clockwise, as the positions show; they are converted to counterclockwise"
+                .to_owned(),
+        );
+    }
     if is_counted {
         warnings.push(
             "the directions are numbered, and no positions show their angles; the lowest number is read as 0°, and each further one as 45° more, counterclockwise"
@@ -57,6 +69,19 @@ pub(super) fn angles_rad(
         );
     }
     if unknown.is_empty() { Ok(angles_rad) } else { Err(DirectionalError::UnknownDirections(unknown)) }
+}
+
+/// Whether the positions run along the mirror images of the axes that the names state, and along none of these axes.
+/// Axes that are their own mirror images, such as 0° and 90°, show nothing.
+fn are_clockwise(moved: &BTreeMap<&str, Vec<f64>>, named: &NamedDirections) -> bool {
+    let is_same_axis = |a: f64, b: f64| (a - b).sin().abs() <= OTHER_AXIS;
+    let both = moved.iter().filter_map(|(direction, moved_rad)| {
+        let name_rad = named.angles_rad.get(*direction).copied().flatten()?;
+        Some((name_rad, mean_direction_rad(moved_rad)?))
+    });
+    let oblique: Vec<(f64, f64)> = both.filter(|(name, _)| !is_same_axis(*name, -*name)).collect();
+    oblique.len() >= MIN_CLOCKWISE
+        && oblique.iter().all(|(name, motion)| is_same_axis(-*name, *motion) && !is_same_axis(*name, *motion))
 }
 
 #[cfg(test)]
@@ -89,6 +114,28 @@ mod tests {
         let (found, warnings) = angles(&[("0", Some(0.0)), ("45", Some(315.0))], &[]);
         assert_eq!(found, Ok(vec![0.0, 45.0]));
         assert!(warnings.len() == 1 && warnings[0].contains("45 (315°)"), "{warnings:?}");
+    }
+
+    /// The Cluster Haptic Texture Dataset counts its angles clockwise.
+    #[test]
+    fn names_that_count_clockwise_are_recognized_by_the_positions() {
+        let names = ["0", "45", "90", "135", "180", "225", "270", "315"];
+        let degrees = |name: &str| name.parse::<f64>().unwrap();
+        let clockwise = names.map(|name| (name, Some(360.0 - degrees(name))));
+        let (found, warnings) = angles(&clockwise, &[]);
+        // In the order of the names as texts.
+        let mut in_order = names;
+        in_order.sort_unstable();
+        let expected: Vec<f64> = in_order.iter().map(|name| (360.0 - degrees(name)) % 360.0).collect();
+        assert_eq!(found, Ok(expected));
+        assert!(warnings.len() == 1 && warnings[0].contains("clockwise"), "{warnings:?}");
+        // A stated angle counts as it is.
+        assert_eq!(angles(&clockwise, &[("45", 45.0)]).0.unwrap()[6], 45.0);
+        // Names that count counterclockwise, a single oblique direction and mixed ones stay.
+        let counter = names.map(|name| (name, Some(degrees(name))));
+        assert_eq!(angles(&counter, &[]).1, [""; 0]);
+        let mixed = [("45", Some(315.0)), ("135", Some(135.0))];
+        assert!(angles(&mixed, &[]).1[0].contains("45 (315°)"));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use shagreen_core::texture::TextureModel;
 use shagreen_formats::starter::starter_library;
 use shagreen_formats::study_plan::write_study_plan;
 
-use super::{Stimuli, StimulusSound};
+use super::{Stimuli, StimulusSound, Waveforms};
 use crate::project::new_project;
 use crate::report::Warnings;
 use crate::study::new_plan::{authored_names, plan_with_textures};
@@ -86,6 +86,8 @@ fn coded_textures_and_their_originals_are_the_same_signal_in_segments() {
         pairs.truncate(1);
     });
     let stimuli = make(&study, &starter()).unwrap();
+    let (textures, reporter) = (starter(), Warnings::default());
+    let waveforms = Waveforms::new(&study, &textures, &reporter).unwrap();
     let mut segments = Vec::new();
     for trial in trials(&study.plan, &study.plan.parts[0], 1) {
         let Task::Discriminate { is_different, segment, .. } = trial.task else { panic!() };
@@ -95,6 +97,11 @@ fn coded_textures_and_their_originals_are_the_same_signal_in_segments() {
         assert!(sounds.iter().all(|sound| values(sound).len() == 1600));
         if is_different {
             let (original, coded) = (values(&sounds[0]), values(&sounds[1]));
+            // The waveform of a stimulus is what is presented.
+            for (shown, presented) in trial.task.shown().iter().zip([&original, &coded]) {
+                let waveform = waveforms.of(&shown.stimulus).unwrap();
+                assert_eq!(waveform[1600 * segment..][..1600], presented[..]);
+            }
             let ratio = rms(&coded) / rms(&original);
             assert!((0.3..1.7).contains(&ratio), "the codec changes the level by {ratio}");
             segments.push((segment, original));
@@ -102,6 +109,8 @@ fn coded_textures_and_their_originals_are_the_same_signal_in_segments() {
     }
     let of = |wanted: usize| &segments.iter().find(|(segment, _)| *segment == wanted).unwrap().1;
     assert!(of(0) != of(1) && of(1) != of(2), "segments are parts of one signal");
+    let error = waveforms.of("steam").unwrap_err().to_string();
+    assert!(error.contains("no stimulus \"steam\""), "{error}");
 }
 
 #[test]

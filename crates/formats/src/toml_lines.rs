@@ -1,25 +1,61 @@
-//! Line of a key in a plan file.
+//! Problems of TOML files that people write, with the line and the key of each.
 
+use shagreen_core::words::near;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::toml_text::line_after;
 
-/// A plan file, to find the lines of its keys.
-pub(super) struct Lines<'a> {
+/// Something that is wrong with a file, with its place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LocatedProblem {
+    /// Line of the key or of its table, from one, if the file has either.
+    pub line: Option<usize>,
+    /// The key, such as `part[2].pairs`: the second `[[part]]`, its key `pairs`. Entries count from 1.
+    pub key: String,
+    /// What is wrong and what to do.
+    pub text: String,
+}
+
+impl std::fmt::Display for LocatedProblem {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "line {line}, {}: {}", self.key, self.text),
+            None => write!(f, "{}: {}", self.key, self.text),
+        }
+    }
+}
+
+/// Returns problems as one line of text.
+pub(crate) fn listed(problems: &[LocatedProblem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+/// Returns the advice for a key that is not one of these: similar ones, or all.
+pub(crate) fn known_keys(known: &[&str], key: &str) -> String {
+    let near = near(known.iter().copied(), key);
+    if near.is_empty() {
+        format!("the keys here are {}", known.join(", "))
+    } else {
+        format!("did you mean {}?", near.join(", "))
+    }
+}
+
+/// A file, to find the lines of its keys.
+pub(crate) struct Lines<'a> {
     text: &'a str,
     /// `None` if the text is not TOML.
     document: Option<Spanned<DeTable<'a>>>,
 }
 
 impl<'a> Lines<'a> {
-    pub(super) fn of(text: &'a str) -> Self {
+    pub(crate) fn of(text: &'a str) -> Self {
         // A text that is not TOML is reported by its reader.
         Self { text, document: DeTable::parse(text).ok() }
     }
 
     /// Line, from one, of a key such as `part[2].pairs`: of the key itself, else of its table; `None` if there is neither.
-    pub(super) fn line_of(&self, key: &str) -> Option<usize> {
+    pub(crate) fn line_of(&self, key: &str) -> Option<usize> {
         let mut table = self.document.as_ref()?.get_ref();
         let mut begin = None;
         for segment in key.split('.') {
@@ -54,7 +90,7 @@ fn parted(segment: &str) -> (&str, Option<usize>) {
 
 #[cfg(test)]
 mod tests {
-    use super::Lines;
+    use super::{Lines, known_keys};
 
     #[test]
     fn keys_are_found_in_their_tables() {
@@ -73,5 +109,11 @@ mod tests {
             assert_eq!(Lines::of(text).line_of(key), line, "{key}");
         }
         assert_eq!(Lines::of("not = = toml").line_of("not"), None);
+    }
+
+    #[test]
+    fn a_misspelled_key_has_a_suggestion() {
+        assert_eq!(known_keys(&["texture", "stroke"], "textures"), "did you mean texture?");
+        assert_eq!(known_keys(&["texture", "stroke"], "q"), "the keys here are texture, stroke");
     }
 }
