@@ -33,8 +33,7 @@ pub(crate) struct Sounding {
 impl Sounding {
     /// Returns the texture as a library entry with its terms of use.
     pub(crate) fn entry(&self) -> anyhow::Result<TextureEntry> {
-        let entry = entry_of_sound(&self.library, &self.sound, &self.name)?;
-        Ok(TextureEntry { license: self.library.license_of(&entry).to_owned(), ..entry })
+        Ok(self.library.with_terms(&entry_of_sound(&self.library, &self.sound, &self.name)?))
     }
 
     /// Returns the sound of a single entry.
