@@ -164,9 +164,9 @@ fn loaded(motion: &BatchMotion, folder: &Path) -> anyhow::Result<LoadedStroke> {
         }),
         BatchMotion::File(name) => {
             let path = folder.join(name);
-            let sha256 = sha256_hex(&file::read_file(&path, FileKind::Table)?);
-            let contacts = stroke::load(&path, &StrokeArgs::default())?;
-            Ok(LoadedStroke::Recorded { contacts, file_name: file_name(&path), sha256 })
+            let bytes = file::read_file(&path, FileKind::Table)?;
+            let contacts = stroke::of_bytes(&bytes, &path, &StrokeArgs::default())?;
+            Ok(LoadedStroke::Recorded { contacts, file_name: file_name(&path), sha256: sha256_hex(&bytes) })
         }
     }
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use directories::ProjectDirs;
-use shagreen_device::audio_input::list_inputs;
+use shagreen_device::audio_input::{list_inputs, list_refused_inputs};
 use shagreen_device::haptic_pen;
 use shagreen_device::operating_system::OperatingSystem;
 use shagreen_device::output::{list_outputs, list_refused_outputs, sound_server};
@@ -47,6 +47,7 @@ pub(crate) fn facts() -> Facts {
         // A system that cannot list its devices has no haptic pen to play on.
         haptic_pens: haptic_pen::system::list().unwrap_or_default(),
         n_inputs: list_inputs().iter().filter(|input| input.monitor_of.is_none()).count(),
+        refused_inputs: list_refused_inputs(),
         has_priority: urgency::is_granted(),
         styluses: list_styluses(),
         serial_ports: ports.map(with_access),

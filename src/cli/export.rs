@@ -137,7 +137,7 @@ fn export_every(args: &Args, format: &'static dyn ExportFormat) -> anyhow::Resul
     let warnings: Vec<&String> = outcomes.iter().flat_map(|outcome| &outcome.warnings).collect();
     let result = json!({
         "files": files,
-        "lost": all_lost(&outcomes),
+        "lost": all_lost(outcomes.iter().map(|outcome| &*outcome.lost)),
         "warnings": warnings,
         "exported": each,
         "folder": folder.display().to_string(),

@@ -11,7 +11,7 @@ use shagreen_core::units::Hertz;
 use shagreen_formats::acf::{AcfV1, acf};
 use shagreen_formats::library::{Library, Provenance};
 use shagreen_studio::export::{
-    ExistingFiles, Rendered, SignalFormat, SignalSamples, StrokeSignal, check_folder, paths_in,
+    ExistingFiles, Rendered, SignalFormat, SignalSamples, StrokeSignal, all_lost, check_folder, paths_in,
     refuse_existing, refuse_foreign_files, shared_full_scale_mps2, signal_paths, write_signal,
 };
 use shagreen_studio::replace::refuse_inputs;
@@ -83,7 +83,7 @@ pub(crate) fn export_signals(request: &Request<'_>) -> anyhow::Result<()> {
     if let Some(warning) = &warning {
         output::warn(warning);
     }
-    let lost = all_lost(&items);
+    let lost = all_lost(items.iter().map(|item| &*item.lost));
     for lost in &lost {
         output::note(&format!("not stored in the {}: {lost}", if request.is_all { "files" } else { "file" }));
     }
@@ -155,13 +155,10 @@ impl Request<'_> {
         let follows_stroke = motion.stroke_path().is_some();
         let items = self.textures.iter().zip(outs).map(|(texture, out)| {
             let sound = &texture.sound;
-            let entry = sound.texture.as_deref().and_then(|id| library.index_of(id));
-            let entry = entry.map(|index| &library.textures[index]);
             let (licence, provenance) = terms_of_sound(library, sound);
             let rendering = self.args.samples.rendering(library, sound)?;
             let rate = Hertz(f64::from(rendering.rate_hz));
-            let rendered = Rendered { texture: entry, tap: sound.tap, rate, follows_stroke };
-            let lost = self.format.lost(rendered);
+            let lost = self.format.lost(Rendered::of_sound(library, sound, rate, follows_stroke));
             Ok(Item { texture, licence, provenance, rendering, out, lost })
         });
         items.collect()
@@ -239,17 +236,6 @@ impl Request<'_> {
             format!("{lines}Exported the signals of {n} textures as {id} into {}", self.out.display())
         });
     }
-}
-
-/// Returns the properties that at least one of the files cannot hold, each once.
-fn all_lost<'a>(items: &'a [Item<'_>]) -> Vec<&'a str> {
-    let mut all: Vec<&str> = Vec::new();
-    for lost in items.iter().flat_map(|item| &item.lost) {
-        if !all.contains(&lost.as_str()) {
-            all.push(lost);
-        }
-    }
-    all
 }
 
 /// Prints each message once: several textures have the same limits, and each is rendered twice.

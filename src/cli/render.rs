@@ -60,13 +60,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     if full_scale == 1.0 && peak > 1.0 {
         Printed.note("players clip what exceeds 1 m/s²; --normalize scales the signal for them");
     }
-    let texture = chosen.texture.as_deref().and_then(|id| library.index_of(id));
-    let rendered = Rendered {
-        texture: texture.map(|index| &library.textures[index]),
-        tap: chosen.tap,
-        rate: Hertz(f64::from(rate_hz)),
-        follows_stroke,
-    };
+    let rendered = Rendered::of_sound(&library, &chosen, Hertz(f64::from(rate_hz)), follows_stroke);
     if let Some(lost) = lost_of_tap(rendered) {
         Printed.note(&format!("not stored in the file: {lost}"));
     }

@@ -25,8 +25,12 @@ pub(crate) fn load(path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeConta
     if high <= low {
         return Err(output::Usage(format!("--force-max {high} must be above --force-min {low}")).into());
     }
-    let bytes = file::read_file(path, FileKind::Table)?;
-    contacts(&bytes, path, args).with_context(|| file::in_file(path))
+    of_bytes(&file::read_file(path, FileKind::Table)?, path, args)
+}
+
+/// Reads the stroke of a file with this content; assumptions are printed.
+pub(crate) fn of_bytes(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeContacts> {
+    contacts(bytes, path, args).with_context(|| file::in_file(path))
 }
 
 fn contacts(bytes: &[u8], path: &Path, args: &StrokeArgs) -> anyhow::Result<StrokeContacts> {

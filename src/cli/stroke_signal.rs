@@ -11,7 +11,7 @@ use shagreen_studio::render::{SEAM_SECS, SampleFormat};
 use shagreen_studio::report::Reporter;
 use shagreen_studio::silence::silence_warning;
 use shagreen_studio::sound::Sound;
-use shagreen_studio::sound_render::{add_taps_of_stroke, render_sound};
+use shagreen_studio::sound_render::{add_separate_taps, render_sound};
 use shagreen_studio::sound_sidecar::{SignalFacts, sidecar_of_sound};
 use shagreen_studio::tap_transients::AddedTaps;
 
@@ -61,14 +61,12 @@ pub(crate) fn stroke_samples(
     }
     // Before the tap transients, which would hide the level of everything else.
     let contact_rms = contact_level(&samples, rate_hz, |secs| motion.contact_at(secs).force.0 > 0.0);
-    let bare = (sound.tap.is_some() && motion.stroke_path().is_some()).then(|| samples.clone());
-    let taps = match motion {
-        Motion::Steady { .. } => AddedTaps::default(),
+    let (taps, without_taps) = match motion {
+        Motion::Steady { .. } => (AddedTaps::default(), None),
         Motion::Stroke { contacts, .. } => {
-            add_taps_of_stroke(&mut samples, library, sound, (contacts.clone(), rate_hz), reporter)?
+            add_separate_taps(&mut samples, library, sound, (contacts.clone(), rate_hz), reporter)?
         }
     };
-    let without_taps = bare.filter(|bare| *bare != samples);
     let sidecar = sidecar(library, sound, motion, rendering);
     if let Some(warning) = silence_warning(&samples, &sidecar.trace) {
         reporter.warn(&warning);

@@ -200,8 +200,8 @@ fn name_of(
     if let (Some(name), Some(project)) = (authored, project) {
         return Ok(find_authored(project, name)?.name.clone());
     }
-    if let Some(index) = sound.texture.as_deref().and_then(|id| library.index_of(id)) {
-        return Ok(library.textures[index].name.clone());
+    if let Some(texture) = sound.named_entry(library) {
+        return Ok(texture.name.clone());
     }
     Ok(point_name(sound.at.unwrap_or_default().coordinates()))
 }

@@ -111,24 +111,24 @@ pub(crate) fn list() -> Vec<OutputInfo> {
 
 /// Devices of all available audio interfaces for one direction. None is opened.
 pub(crate) fn devices(way: Way) -> Vec<Listed> {
-    #[cfg(target_os = "linux")]
-    crate::alsa_messages::silence();
-    let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Disconnected.
-    hosts.flat_map(|host| devices_of(&host, way)).map(|(listed, _)| listed).collect()
+    all_devices(way).map(|(listed, _)| listed).collect()
 }
 
-/// Outputs of all available audio interfaces that the system does not open, with the reasons. Each is queried for its
-/// formats, and none plays.
-pub(crate) fn list_refused() -> Vec<(String, DeviceError)> {
+/// Devices of all available audio interfaces for one direction that the system does not open, with the reasons. Each is
+/// queried for its formats, and none plays or records.
+pub(crate) fn list_refused(way: Way) -> Vec<(String, DeviceError)> {
+    let refused = |(Listed { id, .. }, device): (Listed, cpal::Device)| {
+        let error = refusal(way, &id, &device)?;
+        Some((id, error))
+    };
+    all_devices(way).filter_map(refused).collect()
+}
+
+fn all_devices(way: Way) -> impl Iterator<Item = (Listed, cpal::Device)> {
     #[cfg(target_os = "linux")]
     crate::alsa_messages::silence();
     let hosts = cpal::available_hosts().into_iter().filter_map(|id| cpal::host_from_id(id).ok()); // Disconnected.
-    let devices = hosts.flat_map(|host| devices_of(&host, Way::Out));
-    let refused = |(Listed { id, .. }, device): (Listed, cpal::Device)| {
-        let error = refusal(&id, &device)?;
-        Some((id, error))
-    };
-    devices.filter_map(refused).collect()
+    hosts.flat_map(move |host| devices_of(&host, way))
 }
 
 fn devices_of(host: &cpal::Host, way: Way) -> Vec<(Listed, cpal::Device)> {
@@ -151,7 +151,7 @@ fn devices_of(host: &cpal::Host, way: Way) -> Vec<(Listed, cpal::Device)> {
 
 pub(crate) fn open(id: &str, options: OpenOptions) -> Result<(Handle, Opened), DeviceError> {
     let device = find(Way::Out, id)?;
-    let configs = configs_of(id, &device)?;
+    let configs = configs_of(Way::Out, id, &device)?;
     let Some((range, rate_hz)) = choose(&configs, options) else {
         let message = format!(
             "none of the {} stream formats of the output `{id}` has a suitable channel, rate and sample format; \
@@ -210,18 +210,25 @@ pub(crate) fn find(way: Way, id: &str) -> Result<cpal::Device, DeviceError> {
     host.device_by_id(&device_id).ok_or_else(not_found)
 }
 
-fn configs_of(id: &str, device: &cpal::Device) -> Result<Vec<SupportedStreamConfigRange>, DeviceError> {
-    let configs = device
-        .supported_output_configs()
-        .map_err(|error| explain(Way::Out, id, "queried for its formats", &error))?;
-    Ok(configs.collect())
+/// Stream formats of a device for one direction.
+pub(crate) fn configs_of(
+    way: Way,
+    id: &str,
+    device: &cpal::Device,
+) -> Result<Vec<SupportedStreamConfigRange>, DeviceError> {
+    let configs: Result<Vec<SupportedStreamConfigRange>, cpal::Error> = match way {
+        Way::Out => device.supported_output_configs().map(Iterator::collect),
+        Way::In => device.supported_input_configs().map(Iterator::collect),
+    };
+    configs.map_err(|error| explain(way, id, "queried for its formats", &error))
 }
 
-/// Why an output cannot be opened; `None` if the system states its formats.
-fn refusal(id: &str, device: &cpal::Device) -> Option<DeviceError> {
-    match configs_of(id, device) {
+/// Why a device cannot be opened; `None` if the system states its formats.
+fn refusal(way: Way, id: &str, device: &cpal::Device) -> Option<DeviceError> {
+    match configs_of(way, id, device) {
         Ok(configs) if configs.is_empty() => {
-            let message = format!("the output `{id}` has no stream format; choose another output");
+            let what = way.name();
+            let message = format!("the {what} `{id}` has no stream format; choose another {what}");
             Some(DeviceError::new(DeviceErrorKind::Unsupported, message))
         }
         Ok(_) => None,

@@ -14,7 +14,7 @@ use cpal::{
 use rtrb::{Consumer, Producer, RingBuffer};
 use triple_buffer::triple_buffer;
 
-use crate::audio::{Listed, Way, devices, explain, find};
+use crate::audio::{Listed, Way, configs_of, devices, explain, find, list_refused};
 use crate::error::{DeviceError, DeviceErrorKind};
 #[cfg(target_os = "linux")]
 use crate::pulse::PREFIX;
@@ -50,6 +50,12 @@ pub fn list_inputs() -> Vec<InputInfo> {
         monitor_of: Some(monitor.output_id),
     }));
     inputs.collect()
+}
+
+/// Inputs of devices in [`list_inputs`] that the system does not open, by id, with the reasons. Each input of a device is
+/// queried for its formats, and none records.
+pub fn list_refused_inputs() -> Vec<(String, DeviceError)> {
+    list_refused(Way::In)
 }
 
 /// State that the callbacks report.
@@ -125,10 +131,7 @@ impl Recorder {
             return Self::open_monitor(id, channel_idx);
         }
         let device = find(Way::In, id)?;
-        let configs: Vec<SupportedStreamConfigRange> = device
-            .supported_input_configs()
-            .map_err(|error| explain(Way::In, id, "queried for its formats", &error))?
-            .collect();
+        let configs = configs_of(Way::In, id, &device)?;
         let Some((range, rate_hz)) = choose(&configs, channel_idx, preferred_rate_hz) else {
             return Err(no_channel(id, channel_idx));
         };

@@ -10,6 +10,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 use std::sync::mpsc::channel;
 
+use crate::audio::Way;
 use crate::engine::{ChannelMask, Handle};
 use crate::error::{DeviceError, DeviceErrorKind};
 use crate::haptic_pen;
@@ -30,6 +31,7 @@ pub use crate::running::Running;
 
 /// Id of the silent output.
 pub const NULL_ID: &str = "null";
+
 /// Lists the outputs of this machine, the silent one first. None is opened.
 pub fn list_outputs() -> Vec<OutputInfo> {
     let null = OutputInfo {
@@ -65,7 +67,7 @@ pub fn list_outputs() -> Vec<OutputInfo> {
 /// Audio outputs of [`list_outputs`] that the system does not open, by id, with the reasons. An output of a sound server
 /// that responds is none of them. Each other one is queried for its formats, and none plays.
 pub fn list_refused_outputs() -> Vec<(String, DeviceError)> {
-    crate::audio::list_refused()
+    crate::audio::list_refused(Way::Out)
 }
 
 /// Asks the sound server of this session for its name.

@@ -249,6 +249,11 @@ impl Sound {
         self.models(library).map(of_model).fold([0.0; 2], |[v, f], [of_v, of_f]| [v.max(of_v), f.max(of_f)])
     }
 
+    /// Returns the texture of the library that was named, without the shape; `None` if none was.
+    pub fn named_entry<'a>(&self, library: &'a Library) -> Option<&'a TextureEntry> {
+        library.index_of(self.texture.as_deref()?).map(|index| &library.textures[index])
+    }
+
     /// Returns the contributing textures and their weights as JSON.
     pub fn parents_json(&self, library: &Library) -> Value {
         let parent =

@@ -14,8 +14,8 @@ use crate::sound::Sound;
 /// The sound mixes signals, so that there is no single texture; no file can hold the texture, which is extrapolated too far; or
 /// the texture cannot have the shape.
 pub fn entry_of_sound(library: &Library, sound: &Sound, name: &str) -> anyhow::Result<TextureEntry> {
-    if let Some(index) = sound.texture.as_deref().and_then(|id| library.index_of(id)) {
-        return shaped(&library.textures[index], &sound.shape);
+    if let Some(texture) = sound.named_entry(library) {
+        return shaped(texture, &sound.shape);
     }
     let mut voices = sound.voice_models(library)?.into_iter();
     let (Some((model, _)), None) = (voices.next(), voices.next()) else {
@@ -39,8 +39,7 @@ pub fn entry_of_sound(library: &Library, sound: &Sound, name: &str) -> anyhow::R
 
 /// Returns the terms of use of a sound, which are those of all textures that contribute, and whether it may be redistributed.
 pub fn terms_of_sound(library: &Library, sound: &Sound) -> (String, Provenance) {
-    if let Some(index) = sound.texture.as_deref().and_then(|id| library.index_of(id)) {
-        let texture = &library.textures[index];
+    if let Some(texture) = sound.named_entry(library) {
         return (library.license_of(texture).to_owned(), texture.provenance);
     }
     let parents: Vec<usize> = sound.parents.iter().map(|(texture, _)| *texture).collect();

@@ -56,13 +56,29 @@ pub fn add_taps_of_stroke(
     Ok(taps)
 }
 
+/// Adds tap transients as [`add_taps_of_stroke`] does, and returns also the samples without them; `None` if none was added.
+///
+/// # Errors
+/// Those of [`add_taps_of_stroke`].
+pub fn add_separate_taps(
+    samples: &mut [f32],
+    library: &Library,
+    sound: &Sound,
+    stroke: (StrokeContacts, u32),
+    reporter: &dyn Reporter,
+) -> anyhow::Result<(AddedTaps, Option<Vec<f32>>)> {
+    let bare = sound.tap.is_some().then(|| samples.to_vec());
+    let taps = add_taps_of_stroke(samples, library, sound, stroke, reporter)?;
+    Ok((taps, bare.filter(|bare| *bare != *samples)))
+}
+
 fn counted_landings(n: usize) -> String {
     if n == 1 { "1 landing is".to_owned() } else { format!("{n} landings are") }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{add_taps_of_stroke, render_sound};
+    use super::{add_separate_taps, add_taps_of_stroke, render_sound};
     use crate::render::SampleFormat;
     use crate::report::Warnings;
     use crate::sound::Sound;
@@ -99,7 +115,14 @@ mod tests {
         add_taps_of_stroke(&mut tapped, &library, &sound, (landing(), 2000), &reporter).unwrap();
         let first = tapped.iter().zip(&bare).position(|(a, b)| a != b).unwrap();
         assert!((480..560).contains(&first), "{first}");
+        let mut separate = bare.clone();
+        let (_, without_taps) =
+            add_separate_taps(&mut separate, &library, &sound, (landing(), 2000), &reporter).unwrap();
+        assert_eq!((&separate, without_taps.as_ref()), (&tapped, Some(&bare)));
         sound.tap = None;
+        let (_, without_taps) =
+            add_separate_taps(&mut separate, &library, &sound, (landing(), 2000), &reporter).unwrap();
+        assert_eq!((separate, without_taps), (tapped, None));
         let mut untapped = bare.clone();
         add_taps_of_stroke(&mut untapped, &library, &sound, (landing(), 2000), &reporter).unwrap();
         assert_eq!(untapped, bare);

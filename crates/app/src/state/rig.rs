@@ -120,11 +120,8 @@ impl Rig {
         if let Some(missing) = &self.missing {
             bail!(strings::no_actuator(&missing.reason));
         }
-        match self.actuator() {
+        match self.actuator().filter(|actuator| !actuator.is_proportional()) {
             None => Ok(DriveConfig::proportional(self.full_scale_mps2 as f32, USUAL_CEILING)),
-            Some(actuator) if actuator.is_proportional() => {
-                Ok(DriveConfig::proportional(self.full_scale_mps2 as f32, USUAL_CEILING))
-            }
             Some(actuator) => {
                 Ok(drive_config(actuator, Drive::new(Volts(self.full_scale_volts))?, self.equalizes)?)
             }

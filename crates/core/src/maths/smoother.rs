@@ -8,10 +8,10 @@
 //! surface is unique and exact for linear functions, but it no longer minimizes this integral.
 
 use nalgebra::{DMatrix, SymmetricEigen};
-use pulp::{Arch, Simd, WithSimd};
 
 use crate::maths::radial_basis::{Basis, Kernel};
 use crate::maths::rng::Random;
+use crate::maths::sums::add_columns;
 
 /// Ridges to select from, for points in the unit square.
 const RIDGES: [f64; 7] = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
@@ -57,8 +57,8 @@ impl<const N: usize> Smoother<N> {
     /// Weights of the measurements at a position, in point order. They sum to one and can be negative.
     pub(crate) fn weights(&self, at: [f64; N]) -> Vec<f64> {
         let mut weights = vec![0.0; self.n_points];
-        let (columns, terms) = (self.inverse.as_slice(), self.basis.terms(at));
-        Arch::new().dispatch(AddColumns { columns, terms: &terms, to: &mut weights });
+        let terms = self.basis.terms(at);
+        add_columns(self.inverse.as_slice(), &terms, terms.len(), &mut weights);
         weights
     }
 
@@ -66,44 +66,6 @@ impl<const N: usize> Smoother<N> {
     pub(crate) fn surface(&self, values: &DMatrix<f64>) -> Surface<N> {
         let coefficients = self.inverse.columns(0, self.n_points) * values;
         Surface { basis: self.basis.clone(), coefficients: coefficients.transpose() }
-    }
-}
-
-/// Adds the first rows of all columns, multiplied by the terms, to `to`. The columns have as many rows as there are terms.
-struct AddColumns<'a> {
-    /// All columns, one after the other.
-    columns: &'a [f64],
-    terms: &'a [f64],
-    to: &'a mut [f64],
-}
-
-impl WithSimd for AddColumns<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    #[allow(clippy::inline_always, reason = "without inlining, the loop is compiled for the baseline CPU")]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { columns, terms, to } = self;
-        let n_rows = terms.len();
-        // Four columns at once, so that the sums are read and written a quarter as often. The order of the additions is that
-        // of the columns.
-        let mut fours = terms.chunks_exact(4);
-        let mut rest = columns;
-        for four in &mut fours {
-            let (now, later) = rest.split_at(4 * n_rows);
-            let (first, others) = now.split_at(n_rows);
-            let (second, others) = others.split_at(n_rows);
-            let (third, fourth) = others.split_at(n_rows);
-            for ((((sum, a), b), c), d) in to.iter_mut().zip(first).zip(second).zip(third).zip(fourth) {
-                *sum = *sum + four[0] * a + four[1] * b + four[2] * c + four[3] * d;
-            }
-            rest = later;
-        }
-        for (term, column) in fours.remainder().iter().zip(rest.chunks_exact(n_rows)) {
-            for (sum, x) in to.iter_mut().zip(column) {
-                *sum += term * x;
-            }
-        }
     }
 }
 

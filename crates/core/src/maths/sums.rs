@@ -1,7 +1,9 @@
 //! Sums over samples, written for automatic vectorization: with several accumulators the compiler may reorder
 //! additions; with one it may not.
 
-use std::ops::{AddAssign, Mul};
+use std::ops::{Add, AddAssign, Mul};
+
+use pulp::{Arch, Simd, WithSimd};
 
 /// Number of accumulators for one sum.
 const N_LANES: usize = 8;
@@ -29,6 +31,55 @@ pub(crate) fn sum_of(x: &[f64], value: impl Fn(f64) -> f64) -> f64 {
 pub(crate) fn add_times<T: Copy + AddAssign + Mul<Output = T>>(values: &[T], factor: T, sum: &mut [T]) {
     for (sum, value) in sum.iter_mut().zip(values) {
         *sum += factor * *value;
+    }
+}
+
+/// Adds each column times its factor to `sum`, in the order of the columns. `columns` has one column of `n_rows` values after
+/// the other, one for each factor. Only the first rows of a column are added if `sum` is shorter.
+pub(crate) fn add_columns<T>(columns: &[T], factors: &[T], n_rows: usize, sum: &mut [T])
+where
+    T: Copy + Add<Output = T> + AddAssign + Mul<Output = T>,
+{
+    Arch::new().dispatch(AddColumns { columns, factors, n_rows, sum });
+}
+
+/// Arguments of [`add_columns`].
+struct AddColumns<'a, T> {
+    columns: &'a [T],
+    factors: &'a [T],
+    n_rows: usize,
+    sum: &'a mut [T],
+}
+
+impl<T> WithSimd for AddColumns<'_, T>
+where
+    T: Copy + Add<Output = T> + AddAssign + Mul<Output = T>,
+{
+    type Output = ();
+
+    #[inline(always)]
+    #[allow(clippy::inline_always, reason = "without inlining, the loop is compiled for the baseline CPU")]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self { columns, factors, n_rows, sum } = self;
+        // Four columns at once, so that the sums are read and written a quarter as often. The order of the additions is that
+        // of the columns.
+        let mut fours = factors.chunks_exact(4);
+        let mut rest = columns;
+        for four in &mut fours {
+            let (now, later) = rest.split_at(4 * n_rows);
+            let (first, others) = now.split_at(n_rows);
+            let (second, others) = others.split_at(n_rows);
+            let (third, fourth) = others.split_at(n_rows);
+            for ((((sum, a), b), c), d) in sum.iter_mut().zip(first).zip(second).zip(third).zip(fourth) {
+                *sum = *sum + four[0] * *a + four[1] * *b + four[2] * *c + four[3] * *d;
+            }
+            rest = later;
+        }
+        for (factor, column) in fours.remainder().iter().zip(rest.chunks_exact(n_rows)) {
+            for (sum, x) in sum.iter_mut().zip(column) {
+                *sum += *factor * *x;
+            }
+        }
     }
 }
 

@@ -8,9 +8,9 @@
 mod anisotropy;
 
 use nalgebra::{DMatrix, SymmetricEigen};
-use pulp::{Arch, Simd, WithSimd};
 
 use crate::maths::smoother::{Smoother, Surface, scattered};
+use crate::maths::sums::add_columns;
 use crate::space::field::anisotropy::Anisotropy;
 use crate::space::mean_axes::MeanAxes;
 use crate::space::sampled::{SampledGrain, Sampling};
@@ -137,7 +137,7 @@ impl Field {
     ) -> Result<TextureModel, TextureModelError> {
         let scores: Vec<f32> = self.scores.at(at).into_iter().map(|score| score as f32).collect();
         let mut ln_psd = self.mean.clone();
-        Arch::new().dispatch(AddAll { scores: &scores, components: &self.components, to: &mut ln_psd });
+        add_columns(&self.components, &scores, self.mean.len(), &mut ln_psd);
         let mut ln_friction = self.friction.as_ref().map(|surface| surface.at(at)[0]);
         let mut tap = self.tap.as_ref().map(|surface| surface.at(at));
         let differences = self.anisotropy.as_ref().map(|of| of.at(weights, axes, towards));
@@ -192,28 +192,6 @@ impl Field {
             reached += 0.5 * (before + pace(worst)) / f64::from(N_STEPS);
         }
         along(reached)
-    }
-}
-
-/// Adds all components, multiplied by their scores, to `to`.
-struct AddAll<'a> {
-    scores: &'a [f32],
-    components: &'a [f32],
-    to: &'a mut [f32],
-}
-
-impl WithSimd for AddAll<'_> {
-    type Output = ();
-
-    #[inline(always)]
-    #[allow(clippy::inline_always, reason = "without inlining, the loop is compiled for the baseline CPU")]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self { scores, components, to } = self;
-        for (score, component) in scores.iter().zip(components.chunks_exact(to.len())) {
-            for (sum, c) in to.iter_mut().zip(component) {
-                *sum += score * c;
-            }
-        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{
     Arc, DeviceErrorKind, Duration, ErrorKind, Instant, Intake, Ordering, Recorder, RingBuffer, SampleFormat,
-    StreamConfig, SupportedStreamConfigRange, Told, choose, triple_buffer,
+    StreamConfig, SupportedStreamConfigRange, Told, choose, list_inputs, list_refused_inputs, triple_buffer,
 };
 use cpal::SupportedBufferSize;
 
@@ -24,6 +24,16 @@ fn the_channel_and_then_the_rate_decide() {
     assert_eq!(of(0, 96_000), Some((2, 96_000)));
     assert_eq!(of(5, 48_000), Some((8, 44_100)));
     assert_eq!(of(8, 48_000), None);
+}
+
+#[test]
+fn an_input_that_is_refused_cannot_be_opened_either() {
+    let listed = list_inputs();
+    for (id, error) in list_refused_inputs() {
+        assert!(error.message().contains(&format!("the input `{id}`")), "{error}");
+        assert!(listed.iter().any(|input| input.id == id && input.monitor_of.is_none()), "{id}");
+        assert!(Recorder::open(&id, 0, 48_000).is_err(), "{id}");
+    }
 }
 
 #[test]

@@ -168,7 +168,7 @@ fn pen_ids(device: HANDLE) -> Option<(u16, u16)> {
     is_pen.then_some((hid.dwVendorId as u16, hid.dwProductId as u16))
 }
 
-/// Name of a device, by which it is found again.
+/// Name of a device, to find it again in a later list.
 fn device_name(device: HANDLE) -> Option<String> {
     // The length is counted in characters for this command, so that the buffer is long enough.
     let wide = info_of::<u16>(device, RIDI_DEVICENAME)?;
@@ -184,7 +184,7 @@ fn info_of<T: Clone + Default>(device: HANDLE, command: RAW_INPUT_DEVICE_INFO_CO
         return None;
     }
     let mut data = vec![T::default(); size as usize];
-    // SAFETY: `data` has `size` elements of at least one byte each, which is as much as the function was told.
+    // SAFETY: `data` has `size` elements of at least one byte each, which is the size that `size` states.
     let n = unsafe { GetRawInputDeviceInfoW(device, command, data.as_mut_ptr().cast(), &raw mut size) };
     (n != u32::MAX && n > 0).then_some(data)
 }

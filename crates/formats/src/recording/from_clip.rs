@@ -61,16 +61,12 @@ pub(super) fn recording_of_envelope(
     }
     let speed = inquiry.map.constant_speed;
     if speed.is_none() {
-        let text = format!(
-            "{what} has no stroke; state the tip speed at which it is to be felt, such as \"100 mm/s\""
-        );
+        let text = format!("{what} has no stroke; state the tip speed of the stroke, such as \"100 mm/s\"");
         inquiry.ask(Ask::Speed, &[], text);
     }
     let force = inquiry.map.constant_force;
     if force.is_none() {
-        let text = format!(
-            "{what} has no stroke; state the normal force at which it is to be felt, such as \"1 N\""
-        );
+        let text = format!("{what} has no stroke; state the normal force of the stroke, such as \"1 N\"");
         inquiry.ask(Ask::Force, &[], text);
     }
     let rate_hz = *inquiry.map.rate_hz.get_or_insert(RATE_HZ);

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::printed_results::Paper;
 use crate::reproduction_report::{ItemCounts, ReproducedItem, ReproducedRow, Reproduction, page_file};
 
-/// First line of every page, by which it is recognized. Viewers do not show it.
+/// First line of every page, which identifies it. Viewers do not show it.
 const MARK: &str = "<!-- Written by `shagreen reproduce`. -->\n";
 
 /// Returns whether bytes are a page written by [`reproduction_page`] or [`reproduction_index`].

@@ -97,7 +97,7 @@ pub(crate) fn bundle_bombs() -> Vec<Vec<u8>> {
     vec![bundle_of(&[("zeros", &zeros)]), bundle_of(&[("a", &zeros[..6 << 20]), ("b", &zeros[..6 << 20])])]
 }
 
-/// What was read stays in the folder into which it is unpacked.
+/// No path of a bundle leads out of the folder that it is unpacked to.
 pub(crate) fn read_a_bundle(bytes: &[u8]) -> Result<(), String> {
     let Ok(mut bundle) = Bundle::open(bytes) else { return Ok(()) };
     let is_inside =

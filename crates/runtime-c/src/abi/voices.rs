@@ -69,7 +69,7 @@ pub unsafe extern "C" fn shagreen_voice_destroy(voice: *mut ShagreenVoice) {
 ///
 /// The touches are evenly spaced over the block, and the last one is reached at its last sample. With `n_touches` 0, the tip
 /// stays. `friction_n` may be null; otherwise it becomes the kinetic friction force in N at the last touch, zero for a
-/// texture of which it is not known. The function neither allocates nor waits, so an audio callback may call it.
+/// texture whose friction is not known. The function neither allocates nor waits, so an audio callback may call it.
 ///
 /// # Safety
 /// `voice` comes from `shagreen_voice_create` and is not freed. `touches` points to `n_touches` structs, `samples` to

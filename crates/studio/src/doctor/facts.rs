@@ -26,6 +26,8 @@ pub struct Facts {
     pub haptic_pens: Vec<HidPen>,
     /// Number of audio inputs of devices, without the monitors of outputs.
     pub n_inputs: usize,
+    /// Ids of those inputs that the system does not open, with the reasons.
+    pub refused_inputs: Vec<(String, DeviceError)>,
     /// Whether threads of this program get real-time priority.
     pub has_priority: bool,
     /// Mouse and pens.

@@ -72,7 +72,12 @@ fn outputs(facts: &Facts) -> Line {
     let n = audio.len();
     let reasons: Vec<&DeviceError> = audio.iter().filter_map(|output| refusal(facts, output)).collect();
     if reasons.len() == n {
-        return none_opens(facts.system, &reasons);
+        let (seen, is_busy) = none_opens("output", &reasons);
+        return if is_busy {
+            Line::new(topic, State::Limited, seen).with("close the program that uses the output")
+        } else {
+            Line::new(topic, State::Fails, seen).with(connect_one(facts.system))
+        };
     }
     let default = audio.iter().find(|output| output.is_default);
     if let Some((output, error)) = default.and_then(|output| Some((output, refusal(facts, output)?))) {
@@ -104,18 +109,15 @@ fn connect_one(system: OperatingSystem) -> &'static str {
     }
 }
 
-/// Line about outputs none of which opens, with the reason of each. Another program may use one of them.
-fn none_opens(system: OperatingSystem, reasons: &[&DeviceError]) -> Line {
+/// Says that no output or input opens, with a reason. Returns also whether another program uses one of them.
+fn none_opens(what: &str, reasons: &[&DeviceError]) -> (String, bool) {
     let busy = reasons.iter().find(|error| error.kind() == DeviceErrorKind::Busy);
     let reason = busy.or(reasons.first()).map_or("", |error| error.message());
     let seen = match reasons.len() {
-        1 => format!("1 audio output is listed, and it does not open: {reason}"),
-        n => format!("{n} audio outputs are listed, and none opens; for example, {reason}"),
+        1 => format!("1 audio {what} is listed, and it does not open: {reason}"),
+        n => format!("{n} audio {what}s are listed, and none opens; for example, {reason}"),
     };
-    match busy {
-        Some(_) => Line::new("outputs", State::Limited, seen).with("close the program that uses the output"),
-        None => Line::new("outputs", State::Fails, seen).with(connect_one(system)),
-    }
+    (seen, busy.is_some())
 }
 
 fn haptic_pens(facts: &Facts) -> impl Iterator<Item = Line> + '_ {
@@ -130,15 +132,27 @@ fn haptic_pens(facts: &Facts) -> impl Iterator<Item = Line> + '_ {
 }
 
 fn inputs(facts: &Facts) -> Line {
-    match facts.n_inputs {
-        0 => Line::new(
-            "audio inputs",
-            State::Absent,
-            "there is no audio input, which only `calibrate` and `latency` need",
-        ),
-        1 => Line::new("audio inputs", State::Works, "1 audio input"),
-        n => Line::new("audio inputs", State::Works, format!("{n} audio inputs")),
-    }
+    let topic = "audio inputs";
+    let reasons: Vec<&DeviceError> = facts.refused_inputs.iter().map(|(_, error)| error).collect();
+    let seen = match (facts.n_inputs, facts.n_inputs.saturating_sub(reasons.len())) {
+        (0, _) => {
+            let seen = "there is no audio input, which only `calibrate` and `latency` need";
+            return Line::new(topic, State::Absent, seen);
+        }
+        (_, 0) => {
+            let (seen, is_busy) = none_opens("input", &reasons);
+            return if is_busy {
+                Line::new(topic, State::Limited, seen).with("close the program that uses the input")
+            } else {
+                let seen = format!("{seen}; only `calibrate` and `latency` need one");
+                Line::new(topic, State::Absent, seen)
+            };
+        }
+        (1, _) => "1 audio input".to_owned(),
+        (n, n_working) if n_working == n => format!("{n} audio inputs"),
+        (n, n_working) => format!("{n_working} of {n} audio inputs can be opened"),
+    };
+    Line::new(topic, State::Works, seen)
 }
 
 fn priority(facts: &Facts) -> Line {

@@ -76,6 +76,7 @@ fn whole() -> Facts {
         refused_outputs: Vec::new(),
         haptic_pens: vec![hid_pen("haptic:1", Access::Granted)],
         n_inputs: 2,
+        refused_inputs: Vec::new(),
         has_priority: true,
         styluses: StylusList { styluses: vec![pen(Access::Granted)], warning: None },
         serial_ports: Ok(vec![port(Access::Granted)]),
@@ -182,20 +183,24 @@ fn a_machine_without_sound() {
     check(&whole(), "haptic pens", State::Works, "Test pen (haptic:1), which plays an approximation", "");
 }
 
+/// Outputs or inputs that the system does not open.
+fn refusals(what: &str, ids: &[&str], kind: DeviceErrorKind) -> Vec<(String, DeviceError)> {
+    let refusal = |id: &&str| {
+        let message = format!("the {what} `{id}` cannot be queried for its formats: no card; choose another");
+        ((*id).to_owned(), DeviceError::new(kind, message))
+    };
+    ids.iter().map(refusal).collect()
+}
+
 #[test]
 fn an_output_works_only_if_it_opens() {
     let refused = |ids: &[&str], kind| {
-        let error = |id: &&str| {
-            let message =
-                format!("the output `{id}` cannot be queried for its formats: no card; choose another");
-            ((*id).to_owned(), DeviceError::new(kind, message))
-        };
         let outputs = vec![
             output("null", OutputKind::Null, false),
             output("alsa:a", OutputKind::Audio, true),
             output("alsa:b", OutputKind::Audio, false),
         ];
-        Facts { outputs, refused_outputs: ids.iter().map(error).collect(), ..whole() }
+        Facts { outputs, refused_outputs: refusals("output", ids, kind), ..whole() }
     };
     let gone = DeviceErrorKind::NotFound;
     let none = refused(&["alsa:a", "alsa:b"], gone);
@@ -208,6 +213,20 @@ fn an_output_works_only_if_it_opens() {
     check(&busy, "outputs", State::Limited, "none opens", "close the program");
     let missing = Facts { sound_server: SoundServer::Missing, ..none };
     check(&missing, "sound server", State::Fails, "no sound server", "pipewire");
+}
+
+#[test]
+fn an_input_works_only_if_it_opens() {
+    let refused = |ids: &[&str], kind| Facts { refused_inputs: refusals("input", ids, kind), ..whole() };
+    let (topic, gone) = ("audio inputs", DeviceErrorKind::NotFound);
+    let none = refused(&["alsa:a", "alsa:b"], gone);
+    check(&none, topic, State::Absent, "2 audio inputs are listed, and none opens", "");
+    check(&none, topic, State::Absent, "`alsa:a` cannot be queried", "");
+    check(&none, topic, State::Absent, "only `calibrate` and `latency` need one", "");
+    check(&refused(&["alsa:b"], gone), topic, State::Works, "1 of 2 audio inputs can be opened", "");
+    check(&refused(&[], gone), topic, State::Works, "2 audio inputs", "");
+    let busy = refused(&["alsa:a", "alsa:b"], DeviceErrorKind::Busy);
+    check(&busy, topic, State::Limited, "none opens", "close the program");
 }
 
 #[test]

@@ -32,10 +32,6 @@ impl SignalFormat for Ahap {
         "Intensity, sharpness and taps, for Core Haptics on iPhones and game controllers"
     }
 
-    fn stores_samples(&self) -> bool {
-        false
-    }
-
     fn suffixes(&self, _: bool) -> &'static [&'static str] {
         &["", TRANSIENTS]
     }

@@ -34,10 +34,6 @@ impl SignalFormat for Android {
         "Control points for the envelope builders of VibrationEffect; examples/export has a reader in Kotlin"
     }
 
-    fn stores_samples(&self) -> bool {
-        false
-    }
-
     fn suffixes(&self, _: bool) -> &'static [&'static str] {
         &[""]
     }

@@ -164,16 +164,16 @@ pub fn export_all(
         warnings: restriction_of(entry).into_iter().collect(),
     };
     let outcomes: Vec<ExportOutcome> = entries.iter().zip(written).map(outcome).collect();
-    for lost in all_lost(&outcomes) {
+    for lost in all_lost(outcomes.iter().map(|outcome| &*outcome.lost)) {
         reporter.note(&format!("not stored in the files: {lost}"));
     }
     Ok(outcomes)
 }
 
-/// Returns the properties that at least one of the files cannot hold, each once.
-pub fn all_lost(outcomes: &[ExportOutcome]) -> Vec<&str> {
+/// Returns the properties that at least one of the files cannot hold, each once, from those of each file.
+pub fn all_lost<'a>(each: impl IntoIterator<Item = &'a [String]>) -> Vec<&'a str> {
     let mut all: Vec<&str> = Vec::new();
-    for lost in outcomes.iter().flat_map(|outcome| &outcome.lost) {
+    for lost in each.into_iter().flatten() {
         if !all.contains(&lost.as_str()) {
             all.push(lost);
         }
@@ -218,7 +218,7 @@ mod tests {
                 assert_eq!(outcome.lost, format.lost(entry));
                 assert!(outcome.files[0].is_file() && !outcome.license.is_empty());
             }
-            let lost = all_lost(&outcomes);
+            let lost = all_lost(outcomes.iter().map(|outcome| &*outcome.lost));
             assert!(entries.iter().flat_map(|entry| format.lost(entry)).all(|text| lost.contains(&&*text)));
             let refused = export(false).unwrap_err();
             let first = outcomes[0].files[0].clone();

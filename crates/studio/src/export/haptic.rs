@@ -33,10 +33,6 @@ impl SignalFormat for Haptic {
         "Amplitude, frequency and emphases, for the haptics SDK of game engines, headsets and phones"
     }
 
-    fn stores_samples(&self) -> bool {
-        false
-    }
-
     fn suffixes(&self, has_actuator: bool) -> &'static [&'static str] {
         if has_actuator { &["", ".acf"] } else { &[""] }
     }

@@ -29,10 +29,6 @@ impl SignalFormat for OpenXr {
         "Points for XR_EXT_haptic_parametric on headsets; examples/export has a reader in C++"
     }
 
-    fn stores_samples(&self) -> bool {
-        false
-    }
-
     fn suffixes(&self, _: bool) -> &'static [&'static str] {
         &[""]
     }

@@ -64,7 +64,9 @@ pub trait SignalFormat: Sync {
     fn help(&self) -> &'static str;
 
     /// Whether its files store the samples, so that their encoding matters.
-    fn stores_samples(&self) -> bool;
+    fn stores_samples(&self) -> bool {
+        false
+    }
 
     /// Whether a sidecar marks its files as those of this program. Without one, nothing tells a file of another editor, or one that
     /// was changed, from an export.

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use shagreen_formats::atomic;
 
 use super::signal_format::{FilePart, SignalFormat, StrokeSignal, path_of};
+use crate::figure_files::write_together;
 use crate::file::check_ending;
 use crate::replace::refuse_foreign;
 use crate::report::Reporter;
@@ -62,8 +62,7 @@ pub fn write_signal(
             out.display()
         );
     }
-    let borrowed: Vec<(&Path, &[u8])> = files.iter().map(|(path, bytes)| (&**path, &**bytes)).collect();
-    atomic::write_all(&borrowed)?;
+    write_together(&files, None)?;
     if let Some(warning) = format.warning(signal) {
         reporter.warn(&warning);
     }

@@ -3,7 +3,9 @@
 use shagreen_core::texture::tap::Tap;
 use shagreen_core::units::Hertz;
 use shagreen_device::synth::tap::HIGHEST_SHARE;
-use shagreen_formats::library::TextureEntry;
+use shagreen_formats::library::{Library, TextureEntry};
+
+use crate::sound::Sound;
 
 /// Signal whose losses are listed.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +18,13 @@ pub struct Rendered<'a> {
     pub rate: Hertz,
     /// Whether the tip follows a recorded stroke, in which contacts begin.
     pub follows_stroke: bool,
+}
+
+impl<'a> Rendered<'a> {
+    /// Describes a signal of a sound. `library` has the textures of the sound.
+    pub fn of_sound(library: &'a Library, sound: &Sound, rate: Hertz, follows_stroke: bool) -> Self {
+        Self { texture: sound.named_entry(library), tap: sound.tap, rate, follows_stroke }
+    }
 }
 
 /// Returns what the signal lacks of the tap transient of its texture. Nobody can tell this from a signal, whereas all else
