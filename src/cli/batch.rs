@@ -10,14 +10,14 @@ use shagreen_core::maths::shard::Shard;
 use shagreen_core::units::Contact;
 use shagreen_core::words::counted;
 use shagreen_formats::batch_manifest::{
-    BatchChoice, BatchManifest, BatchMotion, BatchSource, batch_problems, read_batch_manifest,
+    BatchChoice, BatchManifest, BatchMotion, BatchSource, batch_manifest_with_problems, batch_problems,
 };
 use shagreen_formats::bounded_file::FileKind;
 use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::{Library, Provenance};
 use shagreen_formats::project::sha256_hex;
 use shagreen_studio::batch::{
-    BatchOptions, BatchOutcome, BatchProject, BatchSources, JobOutcome, LoadedStroke, plan,
+    BatchOptions, BatchOutcome, BatchProject, BatchSources, JobOutcome, LoadedStroke, plan_with_problems,
 };
 use shagreen_studio::file::{self, file_name, folder_of, one_line};
 use shagreen_studio::library;
@@ -59,23 +59,16 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     refuse_dash(&args.out)?;
     let bytes = file::read_file(&args.manifest, FileKind::Table)?;
-    let manifest = read_batch_manifest(&bytes).with_context(|| file::in_file(&args.manifest))?;
+    let (manifest, mut problems) =
+        batch_manifest_with_problems(&bytes).with_context(|| file::in_file(&args.manifest))?;
     let folder = folder_of(&args.manifest);
-    let (library, project) = textures(&manifest, &folder)?;
-    let mut problems = Vec::new();
+    let (library, project) = known_textures(&manifest, &folder, &mut problems);
     let strokes = strokes(&manifest, &folder, &mut problems);
     let actuators = actuators(&manifest, &folder, &mut problems);
-    let is_loaded = problems.is_empty();
     let sources = BatchSources { library, project, strokes, actuators };
-    let planned = plan(manifest, sources, output::CREATED_BY, &Printed);
-    let plan = match planned {
-        Ok(plan) if is_loaded => plan,
-        planned => {
-            problems.extend(planned.err().into_iter().flatten());
-            let error = batch_problems(&String::from_utf8_lossy(&bytes), problems);
-            return Err(error).with_context(|| file::in_file(&args.manifest));
-        }
-    };
+    let plan = plan_with_problems(manifest, sources, (problems, output::CREATED_BY), &Printed)
+        .map_err(|problems| batch_problems(&String::from_utf8_lossy(&bytes), problems))
+        .with_context(|| file::in_file(&args.manifest))?;
     let apart = plan.scaled_apart();
     if !apart.is_empty() {
         output::note(&format!(
@@ -108,6 +101,29 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             counted(outcome.n_jobs, "job")
         ),
     }
+}
+
+/// Adds a problem, unless one of the same key is known, of which this one could be a consequence.
+fn add_problem(problems: &mut Vec<(String, String)>, key: String, text: String) {
+    if !problems.iter().any(|(known, _)| *known == key) {
+        problems.push((key, text));
+    }
+}
+
+/// As [`textures`]. If they cannot be read, that is a problem, and there are none.
+fn known_textures(
+    manifest: &BatchManifest,
+    folder: &Path,
+    problems: &mut Vec<(String, String)>,
+) -> (Library, Option<BatchProject>) {
+    // Nobody knows which textures are meant.
+    if problems.iter().any(|(key, _)| BatchSource::KEYS.contains(&key.as_str())) {
+        return (Library::default(), None);
+    }
+    textures(manifest, folder).unwrap_or_else(|error| {
+        add_problem(problems, manifest.source.key().to_owned(), one_line(&error));
+        (Library::default(), None)
+    })
 }
 
 /// The library of a manifest, and the project if it names one.
@@ -146,7 +162,7 @@ fn strokes(
         match loaded(&stroke.motion, folder) {
             Ok(stroke) => strokes.push(stroke),
             Err(error) => {
-                problems.push((format!("stroke[{}].file", index + 1), one_line(&error)));
+                add_problem(problems, format!("stroke[{}].file", index + 1), one_line(&error));
                 // In its place, so that other problems are found too.
                 let contact = Contact::from_mm_per_s_and_n(0.0, 0.0);
                 strokes.push(LoadedStroke::Steady { contact, seconds: 0.0 });
@@ -187,7 +203,7 @@ fn actuators(
         match actuator.transpose() {
             Ok(actuator) => actuators.push(actuator),
             Err(error) => {
-                problems.push((format!("output[{}].actuator", index + 1), one_line(&error)));
+                add_problem(problems, format!("output[{}].actuator", index + 1), one_line(&error));
                 actuators.push(None);
             }
         }

@@ -110,20 +110,17 @@ fn a_job_that_fails_is_listed_at_the_end() {
     let bench = Bench::new();
     bench.write(
         "mine.toml",
-        format!("{HEAD}{ALL}[[output]]\nid = \"low\"\nformat = \"wav\"\nrate_hz = 500\n")
-            .replace("all = true", "ids = [\"cork\", \"felt\"]"),
+        format!("{HEAD}{ALL}[[output]]\nid = \"flat\"\nformat = \"maps\"\n")
+            .replace("all = true", "ids = [\"cork\", \"felt\"]\nshape = \"level=-6\""),
     );
     let said = bench.run("batch mine.toml --out made --json");
     assert_eq!(said.code, 1, "{said:?}");
     let result: serde_json::Value = serde_json::from_str(&said.stdout).unwrap();
     assert_eq!((&result["written"], result["failed"].as_array().unwrap().len()), (&2.into(), 2), "{result}");
-    assert!(result["failed"][0]["job"].as_str().unwrap().starts_with("low/"), "{result}");
+    assert!(result["failed"][0]["job"].as_str().unwrap().starts_with("flat/"), "{result}");
     assert!(said.stderr.contains("2 of 4 jobs failed"), "{said:?}");
     let said = bench.run("batch mine.toml --out made");
-    assert!(
-        said.stdout.contains("failed: low/cork--slow: ") && said.stdout.contains("2 done before"),
-        "{said:?}"
-    );
+    assert!(said.stdout.contains("failed: flat/cork: ") && said.stdout.contains("2 done before"), "{said:?}");
 }
 
 #[test]
@@ -144,6 +141,17 @@ fn a_manifest_that_cannot_be_run_says_everything_at_once() {
         &["3 problems", "no texture \"crok\"; did you mean cork", "stroke[1].file", "output[1].actuator"],
     );
     check("a = [", &["line 1"]);
+    // Keys, the library, strokes and actuators: a problem of one hides none of the others, and has no consequences.
+    check(
+        &format!("{HEAD}library = \"none.json\"\n{ALL}actuator = \"none\"\nbit = 16\n")
+            .replace("all = true", "ids = [\"crok\"]")
+            .replace("speed_mm_per_s = 60\nforce_n = 0.5\nseconds = 0.5", "file = \"none.csv\""),
+        &["4 problems", "line 5, library: ", "did you mean bits", "stroke[1].file", "output[1].actuator"],
+    );
+    check(
+        &format!("{HEAD}{ALL}").replace("rate_hz = 4000", "rate_hz = 500"),
+        &["1 problem", "output[1].rate_hz: it is 500 Hz", "at least 1000 Hz"],
+    );
     bench.write("mine.toml", format!("{HEAD}{ALL}"));
     bench.write("used/notes.txt", "x");
     bench.fails("batch mine.toml --out used", 1, &["no batch has written", "used"]);

@@ -37,6 +37,18 @@ fn a_texture_is_exported_as_mpeg_haptics_and_checked() {
     bench.fails("export --texture cork --format hjif --actuator none -o a.hjif", 1, &["neither a built-in"]);
     bench.fails("check cork.wav", 1, &[".hjif", ".gltf", "cork.wav"]);
     bench.fails("check none.hjif", 1, &["no such file", "none.hjif"]);
+    // What is wrong with a file does not hide the others.
+    let said = bench.run("check none.hjif broken.hjif cork.hjif --json");
+    let files = serde_json::from_str::<serde_json::Value>(&said.stdout).unwrap()["files"].clone();
+    assert!(files[0]["error"].as_str().unwrap().contains("no such file"), "{files}");
+    assert_eq!((&files[1]["n_faults"], &files[2]["valid"]), (&1.into(), &true.into()), "{files}");
+    assert_eq!(said.code, 1, "{}", said.stderr);
+    let said = bench.run("check none.hjif broken.hjif cork.hjif");
+    for words in ["not checked: ", "level: the level is 4", "cork.hjif follows"] {
+        assert!(said.stdout.contains(words), "{words}: {}", said.stdout);
+    }
+    assert!(said.code == 1 && said.stderr.contains("2 of 3 files"), "{}", said.stderr);
+    assert_eq!(bench.json("check cork.hjif cork.hjif")["valid"], true);
 }
 
 #[test]

@@ -324,6 +324,29 @@ fn what_is_odd_in_a_recording_is_said() {
     assert!(done["warnings"].to_string().contains("dead axis"), "{done}");
 }
 
+/// A gain that is switched during a recording is a warning.
+#[test]
+fn a_level_that_jumps_is_said() {
+    let bench = Bench::new();
+    let table = |gain: f64| {
+        let noise = shagreen_core::maths::rng::lcg_noise(8000, 3);
+        let mut text = "t_s,a [m/s^2],v [mm/s],F [N]\n".to_owned();
+        let mut smooth = 0.0;
+        for (i, x) in noise.iter().enumerate() {
+            smooth = 0.7 * smooth + x;
+            let a = smooth * if i < 4000 { 1.0 } else { gain };
+            writeln!(text, "{:.3},{a:.5},100,1", i as f64 / 1000.0).unwrap();
+        }
+        text
+    };
+    for (gain, is_said) in [(4.0, true), (1.0, false)] {
+        bench.write("one.csv", table(gain));
+        let done = bench.json("import recording one.csv --out one.json --replace");
+        let warnings = done["warnings"].to_string();
+        assert_eq!(warnings.contains("one.csv: The level rises by 1"), is_said, "{warnings}");
+    }
+}
+
 /// Noise with a line at 50 Hz, at four speeds; the same 50 times stronger is in a wrong unit.
 #[test]
 fn hum_wrong_units_and_what_the_model_rate_loses_are_said() {

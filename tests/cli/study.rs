@@ -92,6 +92,22 @@ fn a_hidden_threshold_is_found() {
 }
 
 #[test]
+fn hidden_positions_between_anchors_are_stated_and_found() {
+    let bench = Bench::new();
+    let (results, run) = simulated(&bench, "anchor-rating", "--simulated 10 --seed 1");
+    let hidden = run["hidden"]["between_anchors"]["roughness"].as_object().unwrap();
+    assert_eq!(hidden.len(), 8);
+    let is_inside = |mean: &&Value| {
+        let position = hidden[mean["condition"].as_str().unwrap()].as_f64().unwrap();
+        let (found, half_width) = (mean["mean"].as_f64().unwrap(), mean["half_width_95"].as_f64().unwrap());
+        (found - position).abs() <= half_width
+    };
+    let means = results["measures"]["position"]["means"].as_array().unwrap();
+    let n_inside = means.iter().filter(is_inside).count();
+    assert!(n_inside >= 7, "{n_inside} of 8: {means:#?}");
+}
+
+#[test]
 fn a_hidden_effect_and_its_order_are_found() {
     let bench = Bench::new();
     let (results, run) = simulated(&bench, "text-to-texture", "--simulated 11 --seed 3");

@@ -2,8 +2,8 @@
 //!
 //! `cargo run --release -p shagreen-app --example frame_time -- 1000` prints the median and the 95th percentile over
 //! two hundred frames, for the layout and for the tessellation into triangles. Three cases are measured: an automatic
-//! stroke, the same with the pointer moving over the canvas, and the same with the point being dragged. Rasterization
-//! of the triangles by a graphics card or by software is not included.
+//! stroke, the same with the pointer moving over the canvas, and the same with the point being dragged, whose textures a
+//! worker makes beside the frames. Rasterization of the triangles by a graphics card or by software is not included.
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "an example panics on errors")]
 #![allow(clippy::print_stdout, reason = "an example prints its results")]
 

@@ -12,6 +12,7 @@ pub(crate) mod icons;
 pub(crate) mod label_places;
 pub(crate) mod list;
 pub(crate) mod map_plot;
+pub(crate) mod menu_checkbox;
 pub(crate) mod motion;
 pub(crate) mod notice;
 pub(crate) mod plot;

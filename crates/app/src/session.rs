@@ -3,13 +3,13 @@
 //! Undo does not apply here: this state follows from the project, the library, and the input of the user.
 
 mod audible;
+mod audible_worker;
 pub(crate) mod authored_sources;
 mod authored_state;
 mod axes;
 mod devices;
 mod follow;
 mod hand_state;
-mod height_maps_worker;
 mod interpolation;
 pub(crate) mod kept_path;
 mod loaded_textures;

@@ -10,6 +10,7 @@ mod parameter_ids;
 pub use self::parameter_ids::{ControlId, EventParameterId};
 
 use self::file::PatternFileV1;
+use crate::first_faults::FirstFaults;
 use crate::imported::Imported;
 use crate::layout;
 use crate::own_json::check_density;
@@ -162,6 +163,16 @@ impl AhapPattern {
     /// # Errors
     /// The bytes are no pattern, or an entry is not one that players know.
     pub fn from_json(bytes: &[u8]) -> Result<Imported<Self>, AhapError> {
+        let (read, faults) = Self::with_faults(bytes)?;
+        faults.or_first(read)
+    }
+
+    /// Reads the entries of a pattern as [`AhapPattern::from_json`] does, and returns the faults of the others: of each entry the
+    /// first.
+    ///
+    /// # Errors
+    /// The bytes are no pattern of version 1.
+    pub fn with_faults(bytes: &[u8]) -> Result<(Imported<Self>, FirstFaults<AhapError>), AhapError> {
         check_density(bytes).map_err(|_| AhapError::TooDense { n_bytes: bytes.len() })?;
         let damaged = |error: serde_json::Error| AhapError::Json(plain(&error.to_string()));
         let file: PatternFileV1 = serde_json::from_slice(bytes).map_err(damaged)?;

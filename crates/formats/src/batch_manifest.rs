@@ -79,6 +79,19 @@ pub enum BatchSource {
     Project(String),
 }
 
+impl BatchSource {
+    /// Keys of which one names the source.
+    pub const KEYS: [&str; 2] = ["library", "project"];
+
+    /// Key that names this source.
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::Library(_) => Self::KEYS[0],
+            Self::Project(_) => Self::KEYS[1],
+        }
+    }
+}
+
 /// Textures of a batch that are chosen together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BatchTexture {
@@ -210,6 +223,21 @@ pub enum BatchManifestError {
 /// # Errors
 /// See [`BatchManifestError`].
 pub fn read_batch_manifest(bytes: &[u8]) -> Result<BatchManifest, BatchManifestError> {
+    let (manifest, problems) = batch_manifest_with_problems(bytes)?;
+    if problems.is_empty() {
+        return Ok(manifest);
+    }
+    Err(batch_problems(&String::from_utf8_lossy(bytes), problems))
+}
+
+/// Reads a manifest that may have problems, and returns them, each a key and what is wrong ([`batch_problems`]). A value with a
+/// problem has a default, so that problems of other kinds can be looked for too.
+///
+/// # Errors
+/// See [`BatchManifestError`]: all but [`BatchManifestError::Problems`].
+pub fn batch_manifest_with_problems(
+    bytes: &[u8],
+) -> Result<(BatchManifest, Vec<(String, String)>), BatchManifestError> {
     let text = std::str::from_utf8(bytes)
         .map_err(|error| BatchManifestError::NotText { at: error.valid_up_to() })?;
     let table: toml::Table = toml::from_str(text)
@@ -224,18 +252,14 @@ pub fn read_batch_manifest(bytes: &[u8]) -> Result<BatchManifest, BatchManifestE
     }
     let mut problems = Vec::new();
     let manifest = manifest_of(&table, &mut problems);
-    if problems.is_empty() { Ok(manifest) } else { Err(located(text, problems)) }
+    Ok((manifest, problems.into_iter().map(|KeyProblem { key, text }| (key, text)).collect()))
 }
 
 /// Returns the error for problems that were found later, such as textures that do not exist, with the lines of their keys.
 /// `text` is the text of the file; a problem is a key, such as `texture[2].ids`, and what is wrong.
 pub fn batch_problems(text: &str, problems: Vec<(String, String)>) -> BatchManifestError {
-    located(text, problems.into_iter().map(|(key, text)| KeyProblem { key, text }).collect())
-}
-
-fn located(text: &str, problems: Vec<KeyProblem>) -> BatchManifestError {
     let lines = Lines::of(text);
-    let located = |KeyProblem { key, text }| LocatedProblem { line: lines.line_of(&key), key, text };
+    let located = |(key, text): (String, String)| LocatedProblem { line: lines.line_of(&key), key, text };
     BatchManifestError::Problems(problems.into_iter().take(MOST_PROBLEMS).map(located).collect())
 }
 

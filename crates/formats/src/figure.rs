@@ -1,6 +1,7 @@
 //! Figures as data: the window and the SVG, PNG and CSV exports all use these types.
 
 mod color_map;
+mod compared;
 mod labels;
 mod png;
 mod svg;
@@ -9,6 +10,7 @@ mod title;
 use crate::named_table::write_table;
 
 pub use crate::figure::color_map::map_color;
+pub use crate::figure::compared::compared_line;
 pub use crate::figure::png::{PngError, figure_png};
 pub use crate::figure::svg::{figure_svg, page_svg};
 
@@ -92,6 +94,8 @@ pub enum Mark {
     Dots,
     /// A line through all points.
     Line,
+    /// A dashed line through all points.
+    DashedLine,
     /// A line from each point of even index to the next, with the label of the second at its end.
     Segments,
 }
@@ -107,6 +111,14 @@ pub enum Tone {
     Third,
     /// A fourth quantity.
     Fourth,
+    /// A fifth quantity.
+    Fifth,
+    /// A sixth quantity.
+    Sixth,
+    /// A seventh quantity.
+    Seventh,
+    /// An eighth quantity.
+    Eighth,
     /// A limit.
     Limit,
     /// An auxiliary line.

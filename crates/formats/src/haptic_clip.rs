@@ -11,6 +11,7 @@ mod rules;
 pub use self::rules::{ClipPlace, ClipRules, HapticClipError};
 
 use self::file::{ClipFileV1, VersionFileV1};
+use crate::first_faults::FirstFaults;
 use crate::layout;
 use crate::own_json::check_density;
 use crate::parser_words::plain;
@@ -88,6 +89,18 @@ impl HapticClip {
     /// # Errors
     /// The bytes are no clip of version 1, or the clip breaks one of the rules.
     pub fn from_json(bytes: &[u8], rules: ClipRules) -> Result<Self, HapticClipError> {
+        let (clip, faults) = Self::with_faults(bytes, rules)?;
+        faults.or_first(clip)
+    }
+
+    /// Reads a clip that may break rules, and returns the broken ones. Unknown fields are ignored.
+    ///
+    /// # Errors
+    /// The bytes are no clip of version 1.
+    pub fn with_faults(
+        bytes: &[u8],
+        rules: ClipRules,
+    ) -> Result<(Self, FirstFaults<HapticClipError>), HapticClipError> {
         check_density(bytes).map_err(|_| HapticClipError::TooDense { n_bytes: bytes.len() })?;
         let damaged = |error: serde_json::Error| HapticClipError::Json(plain(&error.to_string()));
         // First: a later version may have other fields.
@@ -96,7 +109,9 @@ impl HapticClip {
             return Err(HapticClipError::Version { major: version.major() });
         }
         let file: ClipFileV1 = serde_json::from_slice(bytes).map_err(damaged)?;
-        Self::from(file).checked(rules)
+        let clip = Self::from(file);
+        let faults = rules::check(&clip, rules);
+        Ok((clip, faults))
     }
 
     /// Returns the clip if it keeps the rules.
@@ -104,8 +119,7 @@ impl HapticClip {
     /// # Errors
     /// The first rule that it breaks.
     pub fn checked(self, rules: ClipRules) -> Result<Self, HapticClipError> {
-        rules::check(&self, rules)?;
-        Ok(self)
+        rules::check(&self, rules).or_first(self)
     }
 
     /// Returns the bytes of a file. Numbers that are not finite would become `null`; [`HapticClip::checked`] refuses them.

@@ -46,6 +46,7 @@ pub mod csv_text;
 pub mod evaluation_part;
 pub mod evaluation_report;
 pub mod figure;
+pub mod first_faults;
 pub mod fit_report;
 pub mod foreign_file;
 mod foreign_json;

@@ -124,6 +124,11 @@ impl ReproducedRow {
         if self.difference().is_some_and(|difference| difference > 0.0) { format!("+{text}") } else { text }
     }
 
+    /// The difference up to which the numbers count as equal, or an en dash.
+    pub fn tolerance_text(&self) -> String {
+        self.printed.as_ref().map_or_else(|| "\u{2013}".to_owned(), |printed| printed.tolerance.to_string())
+    }
+
     /// The reason, and what is contradictory in print; may be empty.
     pub fn remarks(&self) -> String {
         let note = self.printed.as_ref().map_or("", |printed| printed.note.as_str());

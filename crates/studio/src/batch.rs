@@ -10,6 +10,7 @@ mod inputs;
 mod job;
 mod motion;
 mod outcome;
+mod rates;
 mod run;
 
 use std::collections::BTreeMap;
@@ -26,7 +27,7 @@ use shagreen_formats::project::Project;
 
 use crate::export::{ExportFormat, SignalFormat};
 
-pub use self::choices::plan;
+pub use self::choices::{plan, plan_with_problems};
 pub use self::folder::MARK;
 pub use self::motion::LoadedStroke;
 pub use self::outcome::{BatchOptions, BatchOutcome, JobOutcome, JobState};

@@ -34,7 +34,7 @@ pub struct Checked {
     pub faults: Vec<String>,
     /// Imperfections that players ignore.
     pub warnings: Vec<String>,
-    /// Number of all places at which a rule is broken; 1 where a reader stops at the first one.
+    /// Number of all places at which a rule is broken.
     pub n_faults: usize,
 }
 

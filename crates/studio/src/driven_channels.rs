@@ -45,6 +45,16 @@ pub fn channel_name(actuator: Option<&Actuator>, n_channels: usize, channel_idx:
     named.iter().find(|channel| index_of(channel.number) == channel_idx).map(|channel| channel.name.as_str())
 }
 
+/// Channels, counted from zero, to which the actuator on an output with `n_channels` can be connected: those that its profile
+/// names, or all if it names none.
+pub fn possible_channels(actuator: Option<&Actuator>, n_channels: usize) -> Vec<usize> {
+    let named = named(actuator);
+    let is_possible = |channel_idx: &usize| {
+        named.is_empty() || named.iter().any(|channel| index_of(channel.number) == *channel_idx)
+    };
+    (0..n_channels).filter(is_possible).collect()
+}
+
 /// Number of channels that an output needs for all named channels of a profile; 0 if it names none.
 pub fn n_named_channels(actuator: &Actuator) -> usize {
     actuator.channels.iter().map(|channel| usize::from(channel.number)).max().unwrap_or(0)
@@ -97,7 +107,7 @@ fn index_of(number: u16) -> usize {
 mod tests {
     use super::{
         Actuator, ChannelMask, FrictionConfig, FrictionWave, channel_name, channel_of, driven_channels,
-        n_named_channels,
+        n_named_channels, possible_channels,
     };
     use shagreen_core::actuator::FrictionDisplay;
     use shagreen_core::units::Hertz;
@@ -105,6 +115,17 @@ mod tests {
 
     fn built_in(id: &str) -> Actuator {
         built_in_actuators().unwrap().into_iter().find(|actuator| actuator.id == id).unwrap()
+    }
+
+    #[test]
+    fn only_named_channels_are_possible_if_there_are_any() {
+        let dualsense = built_in("dualsense");
+        let numbers: Vec<usize> =
+            dualsense.channels.iter().map(|channel| usize::from(channel.number) - 1).collect();
+        assert_eq!(possible_channels(Some(&dualsense), 8), numbers);
+        assert_eq!(possible_channels(Some(&dualsense), 2), [0; 0]);
+        assert_eq!(possible_channels(Some(&built_in("mm1c")), 3), [0, 1, 2]);
+        assert_eq!(possible_channels(None, 2), [0, 1]);
     }
 
     #[test]

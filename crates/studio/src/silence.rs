@@ -5,9 +5,14 @@ use shagreen_formats::wav::TraceV1;
 /// Highest acceleration in m/s² of a signal that counts as silent: far below what anybody feels, and above rounding.
 const SILENT_MPS2: f32 = 1e-6;
 
+/// Whether a signal in m/s² is silent.
+pub fn is_silent(samples: &[f32]) -> bool {
+    !samples.iter().any(|sample| sample.abs() > SILENT_MPS2)
+}
+
 /// Returns a warning that a signal in m/s² is silent, with the reason in the motion of the tip; `None` if it is not.
 pub fn silence_warning(samples: &[f32], trace: &TraceV1) -> Option<String> {
-    if samples.iter().any(|sample| sample.abs() > SILENT_MPS2) {
+    if !is_silent(samples) {
         return None;
     }
     let touches = trace.force_n.iter().any(|force_n| *force_n > 0.0);

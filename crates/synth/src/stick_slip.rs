@@ -37,8 +37,11 @@ pub const STRIBECK_SPEEDS_MPS: (f32, f32) = (1e-3, 0.5);
 /// Largest magnitude of the output in m/s².
 pub const MAX_MPS2: f32 = 100.0;
 
-/// Rate of the integration in Hz; at least this many steps a second resolve the bristles at [`HIGHEST_KINETIC_N`].
-const STEP_RATE_HZ: f32 = 16_000.0;
+/// Steps a second that resolve the bristles at [`HIGHEST_KINETIC_N`]. Their stiffness grows with the kinetic friction force,
+/// so the steps that they need grow with its square root.
+const HIGHEST_STEP_RATE_HZ: f32 = 16_000.0;
+/// Steps a second that resolve a slip, whatever the force is.
+const LOWEST_STEP_RATE_HZ: f32 = 4000.0;
 /// Highest kinetic friction force that is rendered, in N.
 const HIGHEST_KINETIC_N: f32 = 20.0;
 /// Highest tip speed that is rendered, in m/s.
@@ -136,23 +139,27 @@ impl Tip {
         self.kinetic_n = kinetic_n;
     }
 
-    /// Advances by a step. The bristle is exact for a constant velocity, so it is stable at any speed and never exceeds
+    /// Advances by equal steps. The bristle is exact for a constant velocity, so it is stable at any speed and never exceeds
     /// the static friction. The spring is integrated by the symplectic Euler method, the damper by the midpoint rule.
-    fn step(&mut self, friction: Friction, speed_mps: f32, step_secs: f32) {
-        let velocity_mps = speed_mps + self.velocity_mps;
-        let per_sec = libm::fabsf(velocity_mps) / (BRISTLE_M * friction.stribeck(velocity_mps));
-        let way = per_sec * step_secs;
-        let share = if way > 1e-3 { -libm::expm1f(-way) / way } else { 1.0 - 0.5 * way };
-        let bristle_per_sec = share * (velocity_mps / BRISTLE_M - per_sec * self.bristle);
-        self.bristle += step_secs * bristle_per_sec;
+    fn advance(&mut self, friction: Friction, speed_mps: f32, n_steps: u32, step_secs: f32) {
         let micro_damping_n_s_per_m = libm::sqrtf(self.kinetic_n / BRISTLE_M * MASS_KG);
-        let friction_n = self.kinetic_n * self.bristle
-            + micro_damping_n_s_per_m * BRISTLE_M * bristle_per_sec
-            + VISCOUS_N_S_PER_M * velocity_mps;
+        let micro_n = micro_damping_n_s_per_m * BRISTLE_M / step_secs;
+        let ways_per_mps = step_secs / BRISTLE_M;
         let damped = 0.5 * DAMPING_N_S_PER_M * step_secs / MASS_KG;
-        let pull_mps = step_secs / MASS_KG * (STIFFNESS_N_PER_M * self.deflection_m + friction_n);
-        self.velocity_mps = ((1.0 - damped) * self.velocity_mps - pull_mps) / (1.0 + damped);
-        self.deflection_m += step_secs * self.velocity_mps;
+        let (kept, pulled) = ((1.0 - damped) / (1.0 + damped), step_secs / MASS_KG / (1.0 + damped));
+        for _ in 0..n_steps {
+            let velocity_mps = speed_mps + self.velocity_mps;
+            let steady = friction.stribeck(velocity_mps);
+            let way = libm::fabsf(velocity_mps) * ways_per_mps / steady;
+            // The bristle approaches the deflection of steady sliding.
+            let change = libm::expm1f(-way) * (self.bristle - libm::copysignf(steady, velocity_mps));
+            self.bristle += change;
+            let friction_n =
+                self.kinetic_n * self.bristle + micro_n * change + VISCOUS_N_S_PER_M * velocity_mps;
+            let pull_n = STIFFNESS_N_PER_M * self.deflection_m + friction_n;
+            self.velocity_mps = kept * self.velocity_mps - pulled * pull_n;
+            self.deflection_m += step_secs * self.velocity_mps;
+        }
     }
 }
 
@@ -160,7 +167,6 @@ impl Tip {
 #[derive(Clone, Debug)]
 pub struct StickSlip {
     rate_hz: f32,
-    n_steps: u32,
     /// Tip in motion.
     tip: Option<Tip>,
     high_pass: HighPass,
@@ -170,12 +176,13 @@ impl StickSlip {
     /// A tip at rest, at the model's sample rate in Hz.
     pub fn new(rate_hz: f32) -> Self {
         let rate_hz = if rate_hz.is_finite() { rate_hz.clamp(200.0, 4000.0) } else { 1000.0 };
-        Self {
-            rate_hz,
-            n_steps: libm::ceilf(STEP_RATE_HZ / rate_hz) as u32,
-            tip: None,
-            high_pass: HighPass::new(HIGH_PASS_HZ, rate_hz),
-        }
+        Self { rate_hz, tip: None, high_pass: HighPass::new(HIGH_PASS_HZ, rate_hz) }
+    }
+
+    /// Steps of the integration in a sample, for kinetic friction forces of at most this one.
+    fn n_steps(&self, kinetic_n: f32) -> u32 {
+        let needed_hz = HIGHEST_STEP_RATE_HZ * libm::sqrtf(kinetic_n / HIGHEST_KINETIC_N);
+        libm::ceilf(needed_hz.max(LOWEST_STEP_RATE_HZ) / self.rate_hz) as u32
     }
 
     /// Puts the tip to rest.
@@ -189,9 +196,9 @@ impl StickSlip {
     /// and multiplied by a weight that changes linearly from `weights.0` to `weights.1`.
     ///
     /// Adds nothing at all if the friction cannot stick, and while the tip is lifted or at rest. From rest or a lifted tip,
-    /// the output fades in within the tick, and fades out likewise; also if the friction can no longer stick. Its magnitude is at most [`MAX_MPS2`], whatever the
-    /// friction and the contacts are, times the weight and the overshoot of a high-pass of [`HIGH_PASS_HZ`]. Cost: 16 000
-    /// to 20 000 steps a second, each with two exponential functions and a square root.
+    /// the output fades in within the tick, and fades out likewise; also if the friction can no longer stick. Its magnitude
+    /// is at most [`MAX_MPS2`], whatever the friction and the contacts are, times the weight and the overshoot of a high-pass of [`HIGH_PASS_HZ`]. Cost: 4000 to
+    /// 20 000 steps a second, more with a larger friction force, each with two exponential functions and a division.
     pub fn add_tick(
         &mut self,
         friction: Friction,
@@ -210,21 +217,21 @@ impl StickSlip {
         let friction = friction.bounded();
         let n = out.len().min(MAX_TICK);
         let share = 1.0 / n.max(1) as f32;
-        let step_secs = 1.0 / (self.rate_hz * self.n_steps as f32);
+        let kinetic_n = |force_n: f32| (friction.kinetic * force_n).min(HIGHEST_KINETIC_N);
+        let n_steps = self.n_steps(kinetic_n(from.force_n.max(to.force_n)));
+        let step_secs = 1.0 / (self.rate_hz * n_steps as f32);
         let gain = |contact: Contact, weight: f32| if is_moving(contact) { weight } else { 0.0 };
         let gains = (gain(from, weights.0), if sticks { gain(to, weights.1) } else { 0.0 });
         for (i, y) in out[..n].iter_mut().enumerate() {
             let done = (i + 1) as f32 * share;
             let between = |a: f32, b: f32| a + done * (b - a);
             let speed_mps = between(from.speed_mps, to.speed_mps).min(HIGHEST_SPEED_MPS);
-            let kinetic_n = (friction.kinetic * between(from.force_n, to.force_n)).min(HIGHEST_KINETIC_N);
+            let kinetic_n = kinetic_n(between(from.force_n, to.force_n));
             let begin = || Tip::sliding(friction, speed_mps, kinetic_n);
             let mut tip = self.tip.unwrap_or_else(begin);
             tip.press(kinetic_n);
             let before_mps = tip.velocity_mps;
-            for _ in 0..self.n_steps {
-                tip.step(friction, speed_mps, step_secs);
-            }
+            tip.advance(friction, speed_mps, n_steps, step_secs);
             // The change of velocity is the mean acceleration over the sample.
             let mps2 = (self.rate_hz * (tip.velocity_mps - before_mps)).clamp(-MAX_MPS2, MAX_MPS2);
             if !mps2.is_finite() {

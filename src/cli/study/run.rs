@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
+use shagreen_core::people::study::plan::{Part, Plan};
 use shagreen_core::people::study::simulated::{Observers, World};
 use shagreen_core::words::counted;
 use shagreen_studio::study::logs::usual_simulated_log_folder;
@@ -96,7 +97,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "answers": simulated.n_answers,
             "folder": folder.display().to_string(),
             "files": names,
-            "hidden": hidden_json(&simulated.world, &simulation.observers),
+            "hidden": hidden_json(&study.plan, &simulated.world, &simulation.observers),
         }),
         || {
             format!(
@@ -122,12 +123,14 @@ fn with_option(error: anyhow::Error) -> anyhow::Error {
     }
 }
 
-/// What the participants perceived.
-fn hidden_json(world: &World, observers: &Observers) -> Value {
+/// What the participants perceived. Positions between anchors are the answers without noise and guesses.
+fn hidden_json(plan: &Plan, world: &World, observers: &Observers) -> Value {
+    let placed = |part: &Part| Some((part.id.clone(), json!(world.positions_between_anchors(part)?)));
     json!({
         "dimensions": world.dimensions,
         "positions": world.positions,
         "conditions": world.conditions,
+        "between_anchors": plan.parts.iter().filter_map(placed).collect::<Map<String, Value>>(),
         "observers": observers_json(observers),
     })
 }

@@ -1,10 +1,11 @@
 //! Filter menu of the texture list.
 
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, Checkbox, Label, PopupCloseBehavior, RichText, ScrollArea, Ui, vec2};
+use egui::{Button, Label, PopupCloseBehavior, RichText, ScrollArea, Ui, vec2};
 
 use crate::author::library_filter::{Filter, NEAR, tag_counts};
 use crate::choices::textures::Region;
+use crate::look::menu_checkbox::menu_checkbox;
 use crate::look::theme::{GAP, tokens};
 use crate::panel::Panel;
 use crate::strings::textures as words;
@@ -49,7 +50,7 @@ fn content_ui(ui: &mut Ui, panel: &Panel<'_>, filter: &mut Filter) {
         (&mut filter.only_starred, words::ONLY_STARRED, words::ONLY_STARRED_HELP),
         (&mut filter.only_joined, words::ONLY_JOINED, words::ONLY_JOINED_HELP),
     ] {
-        ui.add(Checkbox::new(is_on, name)).on_hover_text(help);
+        menu_checkbox(ui, is_on, name, true).on_hover_text(help);
     }
     ui.separator();
     if ui.add_enabled(filter.n_on() > 0, Button::new(words::CLEAR)).clicked() {
@@ -69,7 +70,7 @@ fn tags_ui(ui: &mut Ui, panel: &Panel<'_>, filter: &mut Filter) {
         ui.spacing_mut().item_spacing.y = 0.0;
         for (tag, n) in counts {
             let mut is_on = chosen.contains(tag);
-            if ui.checkbox(&mut is_on, words::tag(tag, n)).changed() {
+            if menu_checkbox(ui, &mut is_on, &words::tag(tag, n), true).changed() {
                 if is_on {
                     filter.tags.insert(tag.to_owned());
                 } else {

@@ -1,11 +1,12 @@
 //! Draws a chart of a figure: points, lines and labels, in the colors of the theme.
 
 use egui::{
-    Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Stroke, StrokeKind, TextStyle, Ui,
-    Vec2, WidgetInfo, pos2, vec2,
+    Color32, FontId, Label, Pos2, Rangef, Rect, RichText, Role, Sense, Shape, Stroke, StrokeKind, TextStyle,
+    TextWrapMode, Ui, Vec2, WidgetInfo, WidgetText, pos2, vec2,
 };
 use egui_plot::{
-    GridInput, GridMark, Line, Plot, PlotPoint, PlotPoints, PlotTransform, Points, uniform_grid_spacer,
+    GridInput, GridMark, Line, LineStyle, Plot, PlotPoint, PlotPoints, PlotTransform, Points,
+    uniform_grid_spacer,
 };
 use shagreen_formats::figure::{Chart, Mark, Point, Scale, Series, Tone};
 
@@ -15,8 +16,16 @@ use crate::look::theme::{GAP, Tokens, tokens, tone_color};
 
 /// Radius of a dot in points.
 const DOT: f32 = 3.5;
+/// Length of a dash, in points.
+const DASH: f32 = 5.0;
 /// Maximum distance between the pointer and a dot that it reads, in points.
 const REACH: f32 = 9.0;
+
+/// Height of the horizontal axis with its label, in points.
+const HORIZONTAL_AXIS: f32 = 34.0;
+/// Length of a line in the legend, and its distance from the name, in points.
+const LEGEND_LINE: f32 = 16.0;
+const LEGEND_GAP: f32 = 5.0;
 
 /// Draws the chart into the available space. `name` is its id, `title` its accessible name.
 pub(crate) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
@@ -35,7 +44,11 @@ pub(crate) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
         Scale::Logarithmic => format!("{}", round_to_digits(scale.coordinate(value))),
         Scale::Linear => short(value),
     }));
-    let up = y_axis().label(RichText::new(&chart.y_label).small()).formatter(|mark, _| short(mark.value));
+    // In a low plot, a long label would reach beyond it.
+    let height = ui.available_height() - HORIZONTAL_AXIS;
+    let label = WidgetText::from(RichText::new(&chart.y_label).small());
+    let label = label.into_galley(ui, Some(TextWrapMode::Truncate), height, TextStyle::Small);
+    let up = y_axis().label(label).formatter(|mark, _| short(mark.value));
     let mut plot = fixed(Plot::new(name.to_owned()), t.line)
         .custom_x_axes(vec![across])
         .custom_y_axes(vec![up])
@@ -72,6 +85,11 @@ pub(crate) fn chart_ui(ui: &mut Ui, name: &str, title: &str, chart: &Chart) {
                     for ends in thinned(&points, laid_out).windows(2) {
                         plot.line(piece(ends, 2.0, color));
                     }
+                }
+                Mark::DashedLine => {
+                    let line = Line::new("", PlotPoints::from(thinned(&points, laid_out)));
+                    let line = line.style(LineStyle::Dashed { length: DASH }).allow_hover(false);
+                    plot.line(line.color(color).width(2.0));
                 }
                 Mark::Segments => {
                     let width = if series.tone == Tone::Faint { 1.0 } else { 2.0 };
@@ -132,7 +150,7 @@ fn radius(series: &Series) -> f32 {
     if series.tone == Tone::Faint { 0.65 * DOT } else { DOT }
 }
 
-/// Draws the legend in a row above the plot, where it covers nothing. Lines labeled at their ends are left out.
+/// Draws the legend in rows above the plot, where it covers nothing. Lines labeled at their ends are left out.
 fn legend_ui(ui: &mut Ui, chart: &Chart, t: &Tokens) {
     let is_named = |series: &&Series| {
         let has_labels = series.points.iter().any(|point| !point.label.is_empty());
@@ -146,9 +164,16 @@ fn legend_ui(ui: &mut Ui, chart: &Chart, t: &Tokens) {
                 continue;
             }
             let color = tone_color(t, series.tone);
+            let text = WidgetText::from(RichText::new(&series.name).small().color(t.text_weak));
+            let text = text.into_galley(ui, Some(TextWrapMode::Extend), f32::INFINITY, TextStyle::Small);
+            // Rows in a row are not wrapped by themselves.
+            let is_first = ui.next_widget_position().x <= ui.max_rect().left();
+            if !is_first && ui.available_size_before_wrap().x < LEGEND_LINE + LEGEND_GAP + text.size().x {
+                ui.end_row();
+            }
             ui.horizontal(|ui| {
-                ui.spacing_mut().item_spacing.x = 5.0;
-                let (area, _) = ui.allocate_exact_size(vec2(16.0, 14.0), Sense::hover());
+                ui.spacing_mut().item_spacing.x = LEGEND_GAP;
+                let (area, _) = ui.allocate_exact_size(vec2(LEGEND_LINE, 14.0), Sense::hover());
                 match series.mark {
                     Mark::Dots => {
                         ui.painter().circle_filled(area.center(), radius(series), color);
@@ -156,8 +181,11 @@ fn legend_ui(ui: &mut Ui, chart: &Chart, t: &Tokens) {
                     Mark::Line | Mark::Segments => {
                         ui.painter().hline(area.x_range(), area.center().y, Stroke::new(2.0, color));
                     }
+                    Mark::DashedLine => {
+                        let ends = [area.left_center(), area.right_center()];
+                        ui.painter().extend(Shape::dashed_line(&ends, Stroke::new(2.0, color), DASH, GAP));
+                    }
                 }
-                let text = RichText::new(&series.name).small().color(t.text_weak);
                 ui.add(Label::new(text).selectable(false));
             });
             ui.add_space(GAP);
@@ -175,7 +203,7 @@ fn names_ui(ui: &Ui, chart: &Chart, area: Rect, transform: &PlotTransform, t: &T
             // A label at the end of a line continues in the direction of the line.
             let beyond = match series.mark {
                 Mark::Segments => series.points.get(i ^ 1).map_or(Vec2::ZERO, |other| at(point) - at(other)),
-                Mark::Dots | Mark::Line => Vec2::ZERO,
+                Mark::Dots | Mark::Line | Mark::DashedLine => Vec2::ZERO,
             };
             if !point.label.is_empty() {
                 named.push((dots.len(), series, point.label.as_str(), beyond));

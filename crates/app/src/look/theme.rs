@@ -40,6 +40,9 @@ pub struct Tokens {
     pub on_chosen: Color32,
     /// The three contributing textures, distinguishable with any color vision (after Okabe and Ito).
     pub parents: [Color32; 3],
+    /// Further lines of a figure. They have another style than those in other colors, and are distinguishable from each other with
+    /// any color vision.
+    pub further: [Color32; 4],
     /// Colors that distinguish authored textures, next to their names (after Okabe and Ito).
     pub authored: [Color32; N_COLORS as usize],
     /// Warnings.
@@ -68,6 +71,12 @@ pub const DARK: Tokens = Tokens {
         Color32::from_rgb(0xF0, 0xA8, 0x30),
         Color32::from_rgb(0x62, 0xB8, 0xEC),
         Color32::from_rgb(0xDB, 0x8C, 0xB8),
+    ],
+    further: [
+        Color32::from_rgb(0xEA, 0xE0, 0x4E),
+        Color32::from_rgb(0x7B, 0x93, 0xF5),
+        Color32::from_rgb(0xEE, 0x7B, 0x52),
+        Color32::from_rgb(0xC2, 0xD8, 0xEE),
     ],
     authored: [
         Color32::from_rgb(0xF0, 0xA8, 0x30),
@@ -103,6 +112,12 @@ pub const LIGHT: Tokens = Tokens {
         Color32::from_rgb(0x96, 0x57, 0x00),
         Color32::from_rgb(0x16, 0x6C, 0xAB),
         Color32::from_rgb(0xA3, 0x3C, 0x78),
+    ],
+    further: [
+        Color32::from_rgb(0x5E, 0x2A, 0x06),
+        Color32::from_rgb(0x16, 0x16, 0x8A),
+        Color32::from_rgb(0x2F, 0x5B, 0xE6),
+        Color32::from_rgb(0xC4, 0x18, 0x4A),
     ],
     authored: [
         Color32::from_rgb(0x96, 0x57, 0x00),
@@ -163,13 +178,17 @@ pub fn tokens(ctx: &egui::Context) -> &'static Tokens {
     }
 }
 
-/// Color of a part of a figure. The colors are distinguishable with any color vision.
+/// Color of a part of a figure. Colors of lines with the same style are distinguishable with any color vision.
 pub fn tone_color(t: &Tokens, tone: Tone) -> Color32 {
     match tone {
         Tone::Main => t.accent,
         Tone::Second => t.parents[0],
         Tone::Third => t.parents[1],
         Tone::Fourth => t.parents[2],
+        Tone::Fifth => t.further[0],
+        Tone::Sixth => t.further[1],
+        Tone::Seventh => t.further[2],
+        Tone::Eighth => t.further[3],
         Tone::Limit => t.text,
         Tone::Faint => t.text_weak.gamma_multiply(0.55),
     }
@@ -253,11 +272,17 @@ fn style(t: &Tokens, mut visuals: Visuals) -> Style {
 /// Relative luminance according to WCAG 2.1.
 #[cfg(test)]
 fn luminance(color: Color32) -> f64 {
-    let linear = |c: u8| {
+    let [red, green, blue] = linear(color);
+    0.2126 * red + 0.7152 * green + 0.0722 * blue
+}
+
+/// Red, green and blue of an opaque color, proportional to light, 0 to 1.
+#[cfg(test)]
+fn linear(color: Color32) -> [f64; 3] {
+    [color.r(), color.g(), color.b()].map(|c| {
         let c = f64::from(c) / 255.0;
         if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
-    };
-    0.2126 * linear(color.r()) + 0.7152 * linear(color.g()) + 0.0722 * linear(color.b())
+    })
 }
 
 /// Contrast of two opaque colors according to WCAG 2.1, 1 to 21.
@@ -268,81 +293,4 @@ pub(crate) fn contrast(a: Color32, b: Color32) -> f64 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{DARK, LIGHT, Tokens, contrast, luminance, map_color, style};
-    use egui::{Color32, Style, Visuals};
-
-    /// Pairs of text and surface in the window that are illegible (WCAG AA: contrast below 4.5 to 1). Also pairs of a
-    /// mark and its surface that are indistinguishable (below 3 to 1).
-    fn unreadable(t: &Tokens, style: &Style) -> Vec<String> {
-        let mut pairs = Vec::new();
-        for surface in [t.background, t.panel, t.raised] {
-            pairs.push((t.text, surface, 7.0));
-            let colors = [t.text_weak, t.accent, t.warning, t.error].into_iter().chain(t.parents);
-            pairs.extend(colors.map(|color| (color, surface, 4.5)));
-            pairs.extend(t.authored.map(|color| (color, surface, 3.0)));
-        }
-        pairs.push((t.on_accent, t.accent, 4.5));
-        let visuals = &style.visuals;
-        let widgets = &visuals.widgets;
-        for widget in
-            [&widgets.noninteractive, &widgets.inactive, &widgets.hovered, &widgets.active, &widgets.open]
-        {
-            pairs.push((widget.fg_stroke.color, widget.bg_fill, 4.5));
-            pairs.push((widget.fg_stroke.color, widget.weak_bg_fill, 4.5));
-        }
-        pairs.extend([t.text, t.text_weak].map(|color| (color, t.field, 4.5)));
-        // Text of a selected tab or entry, and selected text.
-        pairs.push((visuals.selection.stroke.color, visuals.selection.bg_fill, 4.5));
-        // Outline of a check box or field, on a panel and in a menu.
-        pairs.extend([t.panel, t.raised].map(|surface| (widgets.inactive.bg_stroke.color, surface, 3.0)));
-        // Outline of the field with the keyboard focus.
-        pairs.push((visuals.selection.stroke.color, t.panel, 3.0));
-        let is_unreadable = |(color, surface, least): &(Color32, Color32, f64)| {
-            // A translucent surface shows the color of the panel below.
-            contrast(*color, t.panel.blend(*surface)) < *least
-        };
-        let name = |(color, surface, least): (Color32, Color32, f64)| {
-            format!("{color:?} on {surface:?}: {:.2} of {least}", contrast(color, t.panel.blend(surface)))
-        };
-        pairs.into_iter().filter(is_unreadable).map(name).collect()
-    }
-
-    fn both() -> [(&'static Tokens, Style); 2] {
-        [(&DARK, style(&DARK, Visuals::dark())), (&LIGHT, style(&LIGHT, Visuals::light()))]
-    }
-
-    #[test]
-    fn text_can_be_read_on_every_surface() {
-        for (t, style) in both() {
-            assert_eq!(unreadable(t, &style), Vec::<String>::new());
-        }
-    }
-
-    /// A higher value is lighter, whatever its hue.
-    #[test]
-    fn a_map_gets_lighter_all_the_way() {
-        let lights: Vec<f64> = (0..=20).map(|i| luminance(map_color(i as f32 / 20.0))).collect();
-        assert!(lights.windows(2).all(|pair| pair[1] > pair[0]), "{lights:?}");
-    }
-
-    /// Without an outline, a button of the light theme could hardly be told from the canvas below it.
-    #[test]
-    fn controls_differ_from_the_canvas_and_from_text_fields() {
-        for t in [&DARK, &LIGHT] {
-            assert!(contrast(t.control_line, t.background) > 1.5 && t.control_line.is_opaque(), "{t:?}");
-            assert!(contrast(t.control, t.field) > 1.2, "{t:?}");
-        }
-    }
-
-    /// Negative control: accent text on a lighter shade of the accent, a former style of tabs, is detected in both
-    /// themes.
-    #[test]
-    fn a_tab_that_cannot_be_read_is_found() {
-        for (t, mut style) in both() {
-            style.visuals.selection.bg_fill = t.accent.gamma_multiply(0.45);
-            style.visuals.selection.stroke.color = t.accent;
-            assert!(!unreadable(t, &style).is_empty());
-        }
-    }
-}
+mod tests;

@@ -5,6 +5,7 @@ mod shaped_textures;
 use std::sync::Arc;
 
 use shagreen_core::space::authoring::{Authored, Voice};
+use shagreen_core::texture::TextureModel;
 use shagreen_core::texture::blend::{Mode, mixture_psd};
 use shagreen_core::texture::plane::{Plane, Prepared};
 use shagreen_core::texture::shape::Shape;
@@ -13,7 +14,7 @@ use shagreen_formats::library::Library;
 use shagreen_studio::authoring::shaped_plane_at;
 use shagreen_studio::report::Warnings;
 
-pub(super) use self::shaped_textures::{Shaped, ShapedTextures, Unshaped};
+pub(super) use self::shaped_textures::{Shaped, ShapedTextures, Unshaped, needs_preparation};
 
 use super::loaded_textures::Textures;
 
@@ -44,6 +45,31 @@ pub(super) struct Made {
     pub(super) prepared: Arc<Prepared>,
 }
 
+/// A plane that is prepared for the renderer. During a drag a worker makes it, because it would take a large part of a
+/// frame.
+#[derive(Debug)]
+pub(super) struct ReadyPlane {
+    plane: Arc<Plane>,
+    prepared: Arc<Prepared>,
+}
+
+impl ReadyPlane {
+    pub(super) fn new(plane: Arc<Plane>) -> Self {
+        let prepared = Arc::new(plane.prepare());
+        Self { plane, prepared }
+    }
+
+    pub(super) fn of(model: &TextureModel) -> Self {
+        Self::new(Arc::new(Plane::new(model)))
+    }
+
+    /// The plane, and its texture for the renderer under the next number after `n_made`.
+    pub(super) fn numbered(self, n_made: &mut u64) -> (Arc<Plane>, Made) {
+        *n_made += 1;
+        (self.plane, Made { number: *n_made, prepared: self.prepared })
+    }
+}
+
 /// Audible textures and the mode in which they are mixed.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Audible {
@@ -51,6 +77,14 @@ pub(super) struct Audible {
     pub(super) voices: Vec<AudibleVoice>,
     pub(super) mixing: Mode,
     pub(super) made: Vec<Made>,
+}
+
+/// The interpolated texture, if it is one of the voices.
+pub(super) fn audible_model(authored: &Authored) -> Option<&TextureModel> {
+    authored.voices().into_iter().find_map(|(voice, _)| match voice {
+        Voice::Made(model) => Some(model),
+        Voice::Texture(_) => None,
+    })
 }
 
 /// Speeds and forces of a voice: those of a texture of the library, which still needs the shape, or of the interpolated
@@ -91,13 +125,14 @@ pub(super) fn planes_of(
 }
 
 impl Audible {
-    /// Audible textures of `authored`. Textures that are made are numbered on from `n_made`; library textures in a shape
-    /// come from `shaped` if they are there.
+    /// Audible textures of `authored`. `ready` is the interpolated one, if it is made already; library textures in a shape
+    /// come from `shaped` if they are there. Textures that are made are numbered on from `n_made`.
     ///
     /// # Errors
     /// States why a texture of the library cannot have the shape.
     pub(super) fn new(
         authored: &Authored,
+        mut ready: Option<ReadyPlane>,
         textures: &Textures,
         shaped: &mut ShapedTextures,
         n_made: &mut u64,
@@ -111,7 +146,7 @@ impl Audible {
                     continue;
                 }
                 Voice::Texture(texture) => shaped.of(texture, &authored.shape, textures, n_made)?,
-                Voice::Made(model) => numbered(Arc::new(Plane::new(model)), n_made),
+                Voice::Made(model) => ready.take().unwrap_or_else(|| ReadyPlane::of(model)).numbered(n_made),
             };
             heard.voices.push(AudibleVoice { source: Source::Made(made.number), plane, share });
             heard.made.push(made);
@@ -161,11 +196,4 @@ impl Audible {
             self.voices.iter().map(|voice| (&*voice.plane, voice.share)).collect();
         mixture_psd(&voices, self.mixing, contact, frequencies)
     }
-}
-
-/// A plane with the texture that it makes for the renderer, under the next number.
-fn numbered(plane: Arc<Plane>, n_made: &mut u64) -> (Arc<Plane>, Made) {
-    *n_made += 1;
-    let made = Made { number: *n_made, prepared: Arc::new(plane.prepare()) };
-    (plane, made)
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use shagreen_core::space::authoring::Authored;
 use shagreen_core::space::{Space, SpacePoint};
 
-use super::height_maps_worker::HeightMapsWorker;
+use super::audible_worker::AudibleWorker;
 use super::models_worker::ModelsWorker;
 use super::path_walk::PathWalk;
 use super::spaces::Spaces;
@@ -20,8 +20,8 @@ pub(super) struct AuthoredState {
     pub(super) unheard: Option<(BTreeSet<String>, Space)>,
     /// Models of a space, computed by a worker.
     pub(super) models: ModelsWorker,
-    /// Textures at the point whose height map is not ready to play.
-    pub(super) height_maps: HeightMapsWorker,
+    /// Textures at the point that a worker makes audible.
+    pub(super) audible: AudibleWorker,
     /// The texture at the point.
     pub(super) current: Option<Authored>,
     /// Whether a blind comparison hides the audible texture.
@@ -43,7 +43,7 @@ impl AuthoredState {
             pins: None,
             unheard: None,
             models: ModelsWorker::default(),
-            height_maps: HeightMapsWorker::default(),
+            audible: AudibleWorker::default(),
             current: None,
             is_hidden: false,
             n_made: 0,

@@ -15,6 +15,7 @@ use super::audible::Audible;
 use super::loaded_textures::{rate_in, rate_of_space};
 use super::messages::Said;
 use super::places::{names_of, poles_of};
+use super::player::Wanted;
 use super::{Session, Spectra, drawn_frequencies};
 
 impl Session {
@@ -77,12 +78,12 @@ impl Session {
     /// Interpolates the audible texture if it has changed.
     fn follow_texture(&mut self, project: &Project, heard: Option<&AuthoredTexture>, ctx: &egui::Context) {
         let has_rate = |model: &TextureModel| model.rate().0 == self.sound.rate_hz;
-        let ready = self.authored.height_maps.collect();
-        if let Some((ready, shaped)) = ready.filter(|(ready, _)| ready.model.as_ref().is_none_or(has_rate)) {
-            for texture in shaped {
+        let ready = self.authored.audible.collect();
+        if let Some(ready) = ready.filter(|ready| ready.authored.model.as_ref().is_none_or(has_rate)) {
+            for texture in ready.shaped {
                 self.sound.shaped.take(texture, &mut self.authored.n_made);
             }
-            self.play(Some(&ready));
+            self.play(Some(&ready.authored), ready.made);
         }
         let texture = heard.unwrap_or(project.texture());
         self.authored.path_point = self.follow_path(texture.path.as_ref());
@@ -92,11 +93,12 @@ impl Session {
         let key = self.follow_key(solo);
         let wanted = (at, self.blending(&texture.blend), texture.shape, solo, key);
         if self.sound.player.wanted.as_ref() != Some(&wanted) {
+            let is_dragged = heard.is_none() && self.is_dragged(&wanted, ctx);
             self.authored.current = match solo {
                 Some(texture) => Some(self.alone(texture, key, at, wanted.1.mode)),
                 None => self.shaped_at(at, &wanted.1, &wanted.2),
             };
-            self.hear();
+            self.hear(is_dragged);
             self.sound.player.wanted = Some(wanted);
             // A soloed texture without a position may have another sample rate than the space.
             let alone = solo.filter(|texture| self.textures.places[*texture].is_none());
@@ -105,7 +107,18 @@ impl Session {
                 ctx,
             );
         }
-        self.authored.height_maps.begin(ctx);
+        self.authored.audible.begin(ctx);
+    }
+
+    /// Whether this mix is a further step of a drag of the point or of a control of its shape. Outside comparisons and
+    /// studies, the previous step may then play a little longer.
+    fn is_dragged(&self, wanted: &Wanted, ctx: &egui::Context) -> bool {
+        // The frame of the press can bring another texture.
+        let is_held = ctx.input(|i| i.pointer.any_down() && !i.pointer.any_pressed());
+        let (_, blending, _, solo, _) = wanted;
+        let is_step = |(_, before, _, alone, _): &Wanted| before == blending && alone.is_none();
+        let is_free = solo.is_none() && self.authored.path_point.is_none() && !self.is_hidden();
+        is_held && is_free && self.sound.player.wanted.as_ref().is_some_and(is_step)
     }
 
     /// Takes over textures, positions and axes from the project. `is_same` states, by index, which models are unchanged
@@ -145,8 +158,8 @@ impl Session {
         (self.textures.planes, self.textures.rates_hz) = (planes, rates_hz);
         self.textures.planes_ahead.follow(&self.textures.planes, &is_kept);
         self.sound.player.keep(&is_kept);
-        // What it prepares names textures by their index.
-        self.authored.height_maps.cancel();
+        // What it makes names textures by their index.
+        self.authored.audible.cancel();
         if rate_before_hz != self.textures.space_rate_hz
             || !self.sound.heard.survives(&is_kept, Hertz(self.sound.rate_hz))
         {

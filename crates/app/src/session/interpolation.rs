@@ -12,8 +12,7 @@ use shagreen_core::units::Hertz;
 use shagreen_device::synth::tap::Tap;
 
 use super::Session;
-use super::audible::Audible;
-use super::height_maps_worker::needs_preparation;
+use super::audible::{Audible, ReadyPlane, audible_model, needs_preparation};
 use super::path_walk::PathWalk;
 use shagreen_core::space::texture_path::UserPath;
 
@@ -84,45 +83,57 @@ impl Session {
         }
     }
 
-    /// Makes the interpolated texture audible. If the models for its mode are still being computed, or while its height maps
-    /// are prepared, the previous texture keeps playing.
-    pub(super) fn hear(&mut self) {
-        let current = self.authored.current.take();
-        let missing = |authored: &Authored| self.sound.shaped.missing(authored, &self.textures);
-        let unshaped = current.as_ref().map_or(Vec::new(), missing);
-        match &current {
-            Some(authored) if needs_preparation(authored) || !unshaped.is_empty() => {
-                let of_space = Hertz(self.textures.space_rate_hz);
-                let rate = authored.model.as_ref().map_or(of_space, TextureModel::rate);
-                if self.sound.heard.voices.iter().any(|voice| voice.plane.rate() != rate) {
-                    (self.sound.heard, self.sound.player.mix_is_new) = (Audible::default(), true);
-                }
-                self.authored.height_maps.ask(authored.clone(), unshaped);
+    /// Makes the interpolated texture audible. While the models for its mode are being computed, or while a worker makes it,
+    /// the previous texture keeps playing. The worker prepares height maps, and makes the steps of a drag: at every other
+    /// change, the new texture plays at once.
+    pub(super) fn hear(&mut self, is_dragged: bool) {
+        let Some(authored) = self.authored.current.take() else {
+            self.authored.audible.cancel();
+            self.play(None, None);
+            return;
+        };
+        let of_space = Hertz(self.textures.space_rate_hz);
+        let rate = authored.model.as_ref().map_or(of_space, TextureModel::rate);
+        let before = &self.sound.heard.voices;
+        let is_other_rate = before.iter().any(|voice| voice.plane.rate() != rate);
+        // Where nothing plays before, there would be silence until the texture is ready.
+        let may_lag = is_dragged && !before.is_empty() && !is_other_rate;
+        let is_asked = |model: &TextureModel, shape: &Shape| may_lag || needs_preparation(model, shape);
+        let unshaped = self.sound.shaped.missing(&authored, &self.textures, is_asked);
+        // The interpolated model has its shape already.
+        let is_model_asked = audible_model(&authored).is_some_and(|model| is_asked(model, &Shape::default()));
+        if is_model_asked || !unshaped.is_empty() {
+            if is_other_rate {
+                (self.sound.heard, self.sound.player.mix_is_new) = (Audible::default(), true);
             }
-            authored => {
-                self.authored.height_maps.cancel();
-                self.play(authored.as_ref());
-            }
+            self.authored.audible.ask(authored.clone(), unshaped);
+        } else {
+            self.authored.audible.cancel();
+            self.play(Some(&authored), None);
         }
-        self.authored.current = current;
+        self.authored.current = Some(authored);
     }
 
     /// Stops what plays, so that the next texture does not begin with it.
     pub(crate) fn fall_silent(&mut self) {
         // A signal of the Signals workspace plays on.
         if self.sound.felt.is_none() {
-            self.authored.height_maps.cancel();
-            self.play(None);
+            self.authored.audible.cancel();
+            self.play(None, None);
             self.sound.player.wanted = None;
         }
     }
 
-    /// Plays an interpolated texture. Without one, there is silence.
-    pub(super) fn play(&mut self, authored: Option<&Authored>) {
+    /// Plays an interpolated texture, which is made unless it is `ready`. Without one, there is silence.
+    pub(super) fn play(&mut self, authored: Option<&Authored>, ready: Option<ReadyPlane>) {
         let heard = match authored {
-            Some(authored) => {
-                Audible::new(authored, &self.textures, &mut self.sound.shaped, &mut self.authored.n_made)
-            }
+            Some(authored) => Audible::new(
+                authored,
+                ready,
+                &self.textures,
+                &mut self.sound.shaped,
+                &mut self.authored.n_made,
+            ),
             None => Ok(Audible::default()),
         };
         let heard = heard.unwrap_or_else(|reason| {

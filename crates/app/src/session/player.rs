@@ -33,7 +33,7 @@ use crate::state::rig::Rig;
 use crate::state::scope_buffer::ScopeBuffer;
 
 /// Input of a mix: point, interpolation options, shape, index of the soloed texture, and key on its path.
-type Wanted = (SpacePoint, Blending, Shape, Option<usize>, Option<usize>);
+pub(super) type Wanted = (SpacePoint, Blending, Shape, Option<usize>, Option<usize>);
 
 /// An output, and everything to be sent to it: many fields, because the output takes all of it through one handle.
 pub(super) struct Player {

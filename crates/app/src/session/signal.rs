@@ -66,10 +66,10 @@ impl Session {
         Ok(SignalFile { sidecar: placed(sidecar, place, self.axes()), ..file })
     }
 
-    /// Speeds and forces of the voices of the interpolated texture, and their weights: those that play, unless the previous
-    /// texture plays while a height map is prepared.
+    /// Speeds and forces of the voices of the interpolated texture, and their weights: those that play, unless a worker
+    /// still makes this texture, so that a previous one plays.
     fn planes_heard(&self, authored: &Authored) -> Result<Vec<(Arc<Plane>, f64)>, String> {
-        if self.authored.height_maps.is_busy() {
+        if self.authored.audible.is_behind() {
             return planes_of(authored, &self.textures.library, &self.textures.planes);
         }
         let voices = self.sound.heard.voices.iter();

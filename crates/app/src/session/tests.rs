@@ -1,3 +1,4 @@
+mod dragged_points;
 mod exact_textures;
 mod further_axes;
 mod messages;

@@ -107,14 +107,17 @@ impl DevicesSheet {
                     commands.extend(ui.add_enabled_ui(is_free, |ui| self.output_ui(ui, session)).inner);
                     ui.add_space(GROUP_GAP);
                     latency_ui::latency_ui(ui, session);
-                    ui.add_space(GROUP_GAP);
-                    commands.extend(self.calibration_ui(ui, session));
+                    // A haptic pen plays no sweep.
+                    if session.haptic_reading().is_none() {
+                        ui.add_space(GROUP_GAP);
+                        commands.extend(self.calibration_ui(ui, session));
+                    }
                 });
                 ui.add_space(GROUP_GAP);
                 ui.allocate_ui_with_layout(vec2(width, 0.0), column, |ui| {
                     ui.set_width(width);
                     let is_free = !self.measurement.is_running();
-                    ui.add_enabled_ui(is_free, |ui| self.actuator_ui(ui));
+                    ui.add_enabled_ui(is_free, |ui| self.actuator_ui(ui, session));
                     ui.add_space(GROUP_GAP);
                     commands.extend(self.pen_ui(ui, session));
                 });

@@ -25,7 +25,7 @@ use crate::look::theme::{GAP, tokens};
 use crate::look::together::at_right_ui;
 use crate::panel::Panel;
 use crate::session::authored_sources::AuthoredSources;
-use crate::sheets::export::job::{Format, Job, Outcome, Summary, What};
+use crate::sheets::export::job::{Format, Job, Outcome, Saved, Summary, What};
 use crate::sheets::export::lost_ui::Choice;
 use crate::sheets::path_field::{PathField, PathTexts, completed};
 use crate::state::audible_texture::AudibleTexture;
@@ -83,7 +83,7 @@ enum State {
     /// These files would be replaced.
     Exists(Vec<PathBuf>),
     Saving(Receiver<Outcome>, Option<Arc<BenchSignal>>),
-    Saved(Vec<PathBuf>),
+    Saved(Saved),
     Failed(String),
 }
 
@@ -118,8 +118,8 @@ impl ExportSheet {
 
     /// Folder of the exported files.
     pub(crate) fn folder_of_export(&self) -> Option<&Path> {
-        let State::Saved(paths) = &self.state else { return None };
-        paths.first()?.parent()
+        let State::Saved(saved) = &self.state else { return None };
+        saved.paths.first()?.parent()
     }
 
     /// Whether files are being written: the sheet stays until the outcome has been shown.
@@ -255,9 +255,9 @@ impl ExportSheet {
         self.state = match outcome {
             Err(TryRecvError::Empty) => return None,
             Err(TryRecvError::Disconnected) => State::Failed(import::SAVE_BROKEN.to_owned()),
-            Ok(Outcome::Saved(paths)) => {
+            Ok(Outcome::Saved(saved)) => {
                 command = signal.map(|signal| Command::Signals(SignalsCommand::NoteExported(signal)));
-                State::Saved(paths)
+                State::Saved(saved)
             }
             Ok(Outcome::Exists(paths)) => State::Exists(paths),
             Ok(Outcome::Failed(reason)) => State::Failed(reason),

@@ -17,12 +17,14 @@ use shagreen_studio::export::{
 };
 use shagreen_studio::file::one_line;
 use shagreen_studio::render::{SampleFormat, render_along, render_mixture};
-use shagreen_studio::report::Warnings;
+use shagreen_studio::report::{Reporter as _, Warnings};
+use shagreen_studio::silence::{is_silent, silence_warning};
 use shagreen_studio::tap_transients::add_tap_transients;
 use shagreen_studio::trace::{TrackHand, steady_trace, track_trace};
 
 use crate::state::bench_signal::BenchSignal;
 use crate::state::document::CREATED_BY;
+use crate::strings::signal as strings;
 
 /// Usual duration of the signal, in seconds.
 pub(crate) const SIGNAL_SECS: f64 = 5.0;
@@ -94,6 +96,7 @@ pub struct SignalFile {
 
 impl SignalFile {
     /// Renders the signal and writes its files. `full_scale_mps2` becomes a value of 1; `None` takes that of the signal.
+    /// Returns the warnings: silence, what the files hold otherwise than the signal, and files of an earlier export.
     ///
     /// # Errors
     /// States that the signal cannot be rendered or written.
@@ -103,7 +106,7 @@ impl SignalFile {
         path: &Path,
         options: &SignalOptions,
         full_scale_mps2: Option<f64>,
-    ) -> Result<(), String> {
+    ) -> Result<Vec<String>, String> {
         let (rate_hz, seconds) = (options.rate_hz, self.seconds(options));
         let (texture, all) = self.samples_by_taps(options)?;
         let samples = self.signal_samples(&texture, all.as_deref(), options);
@@ -113,10 +116,22 @@ impl SignalFile {
         let full_scale_mps2 = full_scale_mps2
             .unwrap_or_else(|| shared_full_scale_mps2([format.full_scale_mps2(samples, encoding)]));
         let signal = StrokeSignal { samples, sidecar: &sidecar, encoding, full_scale_mps2, acf: None };
-        // Its warnings are about a file of an earlier export, which stays and was not asked about, and about taps that are
-        // limited, which the description states.
-        let written = write_signal(format, &signal, (path, CREATED_BY), &Warnings::default());
-        written.map(|_| ()).map_err(|error| one_line(&error))
+        let warnings = Warnings::default();
+        if let Some(warning) = self.silence_warning(samples.all, &sidecar.trace) {
+            warnings.warn(&warning);
+        }
+        let written = write_signal(format, &signal, (path, CREATED_BY), &warnings);
+        written.map_err(|error| one_line(&error))?;
+        Ok(warnings.into_vec())
+    }
+
+    /// Warning that the rendered samples in m/s² are silent, with the reason; `None` if they are not.
+    fn silence_warning(&self, samples: &[f32], trace: &TraceV1) -> Option<String> {
+        // The motion is not the reason for the silence of samples that are given.
+        if self.is_of_bench() {
+            return is_silent(samples).then(|| strings::SILENT.to_owned());
+        }
+        silence_warning(samples, trace)
     }
 
     /// Acceleration in m/s² at full scale of a format, 0 for silence.

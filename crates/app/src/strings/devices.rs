@@ -37,6 +37,11 @@ pub const ACTUATOR: &str = "Actuator";
 pub const UNCALIBRATED: &str = "Unknown (proportional drive)";
 pub const MISSING: &str = "Last used actuator (unavailable)";
 pub const ACTUATOR_HELP: &str = "Actuator on this output. A known actuator is equalized and kept within its limits; for an unknown one the drive is proportional to acceleration. The command \"shagreen calibrate\" writes a profile of your own actuator.";
+/// In place of the choice, for a haptic pen.
+pub const NO_ACTUATOR_ON_PEN: &str =
+    "A haptic pen plays waveforms of its own, so that no actuator profile applies to it.";
+/// Removes the choice of an actuator.
+pub const LEAVE_ACTUATOR_OUT: &str = "Remove the chosen profile";
 pub const EQUALIZE: &str = "Equalize the actuator response";
 pub const EQUALIZE_HELP: &str = "Inverts the frequency response of the actuator: less drive at the resonance, more away from it. The acceleration then matches that of the texture.";
 pub const VOLTS: &str = "Voltage at full scale";

@@ -49,6 +49,11 @@ pub fn lost(property: &str) -> String {
     format!("• {property}")
 }
 
+/// Warning about written files.
+pub fn warning(warning: &str) -> String {
+    format!("Warning: {warning}")
+}
+
 /// Option that exports all authored textures.
 pub fn all_of(n: usize) -> String {
     format!("All {n} authored textures")

@@ -18,7 +18,7 @@ pub const STOP_HELP: &str = "Ends the work after its present step.";
 pub const BEGINNING: &str = "Beginning…";
 pub const BROKEN: &str = "The work stopped unexpectedly. Start it again, or run \"shagreen reproduce\".";
 /// Headings of the table of numbers.
-pub const COLUMNS: [&str; 4] = ["quantity", "printed", "ours", "remarks"];
+pub const COLUMNS: [&str; 5] = ["quantity", "printed", "ours", "equal up to", "remarks"];
 
 /// Name of a paper in the list.
 pub fn name(paper: Paper) -> &'static str {

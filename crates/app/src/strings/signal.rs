@@ -8,6 +8,9 @@ pub const NO_TEXTURE: &str =
     "No texture can be interpolated at this point; move the point, or choose another interpolation mode.";
 pub const PREPARING: &str = "The texture is still being computed; try again in a moment";
 
+/// Warning about an exported signal of the Signals workspace.
+pub const SILENT: &str = "the signal is silent: all its accelerations are 0; paint it, or choose another one";
+
 /// Accessible name of the choice of the motion.
 pub const MOTION: &str = "Motion of the tip";
 /// Label of the duration.

@@ -138,9 +138,9 @@ pub const TRY_AGAIN: &str = "Try again";
 pub const CONSENT: &str = "Consent";
 pub const AGREE: &str = "I agree";
 pub const DISAGREE: &str = "I do not agree";
-pub const REFUSED: &str = "You do not take part";
+pub const REFUSED: &str = "You are not taking part";
 pub const REFUSED_HELP: &str =
-    "Nothing about you was saved. The log states only the pseudonym, the devices, and that nobody agreed.";
+    "The log states the pseudonym, the devices, and that there was no consent. Nothing else was saved.";
 pub const BEGIN: &str = "Begin";
 pub const CONTINUE: &str = "Continue";
 pub const PRACTICE: &str = "Practice";
@@ -234,7 +234,7 @@ pub fn part_line(
 ) -> String {
     let about = if is_estimated { "about " } else { "" };
     let practice = if n_practice > 0 { format!("{n_practice} for practice, then ") } else { String::new() };
-    format!("{design}: {practice}{about}{}, about {minutes:.0} min", counted(n_scored, "trial"))
+    format!("{design}: {practice}{about}{}, about {:.0} min", counted(n_scored, "trial"), minutes.max(1.0))
 }
 
 /// Trials that are not listed.

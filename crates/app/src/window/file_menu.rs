@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use egui::containers::menu::{MenuButton, MenuConfig};
-use egui::{Button, Checkbox, Label, PopupCloseBehavior, RichText, TextEdit, Ui};
+use egui::{Button, Label, PopupCloseBehavior, RichText, TextEdit, Ui};
 use shagreen_formats::project::{Project, ProjectLibrary};
 use shagreen_formats::settings::Settings;
 use shagreen_studio::export::WAV;
 
 use crate::command::networks::NetworksCommand;
 use crate::command::{Command, FileCommand};
+use crate::look::menu_checkbox::menu_checkbox;
 use crate::look::motion::is_reduced;
 use crate::look::theme::tokens;
 use crate::state::document::Document;
@@ -62,8 +63,7 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
         let open = files.document.path();
         let is_template = open.is_some() && files.settings.template.as_deref() == open;
         let mut is_ticked = is_template;
-        let template = Checkbox::new(&mut is_ticked, strings::TEMPLATE);
-        let template = ui.add_enabled(open.is_some(), template);
+        let template = menu_checkbox(ui, &mut is_ticked, strings::TEMPLATE, open.is_some());
         if template
             .on_hover_text(strings::TEMPLATE_HELP)
             .on_disabled_hover_text(strings::TEMPLATE_NEEDS_FILE)
@@ -88,7 +88,7 @@ pub(crate) fn file_menu(ui: &mut Ui, files: MenuState<'_>) -> MenuOutcome {
             (strings::HOVER, strings::HOVER_HELP, files.settings.plays_on_hover, Command::ToggleHover),
             (motion::REDUCE, motion::REDUCE_HELP, is_reduced(ui.ctx()), Command::ToggleMotion),
         ] {
-            if ui.add(Checkbox::new(&mut is_on, name)).on_hover_text(help).clicked() {
+            if menu_checkbox(ui, &mut is_on, name, true).on_hover_text(help).clicked() {
                 commands.push(command);
             }
         }

@@ -158,6 +158,30 @@ fn a_haptic_pen_says_that_it_approximates() {
     wait(&mut harness, "the sheet opens", |h| says(h, strings::TITLE));
     assert!(says(&harness, strings::HAPTIC_PEN_SILENT));
     assert!(window(&harness).session().haptic_reading().is_some());
+    // What does not apply to it is not offered.
+    assert!(says(&harness, strings::NO_ACTUATOR_ON_PEN) && says(&harness, strings::FULL_SCALE));
+    for list in [strings::ACTUATOR, strings::CHANNELS] {
+        assert!(harness.query_by_role_and_label(Role::ComboBox, list).is_none(), "{list}");
+    }
+    assert!(!says(&harness, strings::CALIBRATE) && !says(&harness, strings::LEAVE_ACTUATOR_OUT));
+}
+
+#[test]
+fn only_channels_that_the_profile_names_are_offered() {
+    let mut harness = opened();
+    choose(&mut harness, strings::CHANNELS, &strings::channel(1));
+    wait(&mut harness, "the channel is taken over", |h| rig(h).channel == Some(1));
+    let actuators = built_in_actuators().unwrap();
+    let dualsense = actuators.iter().find(|actuator| actuator.id == "dualsense").unwrap();
+    choose(&mut harness, strings::ACTUATOR, &dualsense.name);
+    wait(&mut harness, "it is taken over", |h| rig(h).actuator().is_some());
+    assert_eq!(rig(&harness).channel, None, "the profile does not name it");
+    harness.get_by_role_and_label(Role::ComboBox, strings::CHANNELS).click();
+    harness.run_steps(3);
+    for channel_idx in [0, 1] {
+        let name = strings::channel(channel_idx);
+        assert!(harness.query_by_role_and_label(Role::Button, &name).is_none(), "{channel_idx}");
+    }
 }
 
 #[test]

@@ -19,8 +19,8 @@ use shagreen_studio::export::{FORMATS, SIGNAL_FORMATS, WAV};
 
 use crate::projects::{menu, rename};
 use crate::support::{
-    Author, author, choose_mode, click, drag, enter_path, says, unnamed_controls, wait, wait_for_field,
-    window, write_into,
+    Author, author, choose, choose_mode, click, drag, drop_files, enter_path, says, unnamed_controls, wait,
+    wait_for_field, window, write_into,
 };
 use crate::views::carry_out;
 
@@ -171,6 +171,27 @@ fn what_is_heard_is_exported_as_envelopes() {
         click(&mut harness, import::CLOSE);
         harness.run_steps(3);
     }
+}
+
+/// A signal without vibration is written, and the sheet warns of it, as the command line does.
+#[test]
+fn a_silent_export_is_warned_of() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("still.wav");
+    let mut harness = author();
+    wait_for_field(&mut harness);
+    // A tip that rests on the surface.
+    let mut table = "t,x,y,force\n".to_owned();
+    table.extend((0..50).map(|i| format!("{:.2},0,0,1\n", 0.01 * f64::from(i))));
+    drop_files(&mut harness, &[("still.csv", table.as_bytes())]);
+    wait(&mut harness, "it is read", |h| window(h).session().stroke().is_some());
+    menu(&mut harness, export::EXPORT);
+    harness.run_steps(4);
+    choose(&mut harness, signal::MOTION, signal::motion(true));
+    enter_path(&mut harness, export::PATH, &path);
+    let saved = import::saved(&path.display().to_string());
+    wait(&mut harness, "it is exported", |h| h.query_by_label(&saved).is_some());
+    assert!(says(&harness, &export::warning("the signal is silent: the speed is 0")));
 }
 
 /// A format that needs heights says so before the export, and nothing is written.

@@ -114,6 +114,7 @@ fn a_paper_is_repeated_and_its_printed_numbers_stand_beside_ours() {
     enter_path(&mut harness, papers::FOLDER, folder.path());
     wait(&mut harness, "the paper is repeated", |h| says(h, "Fig. 1 (section III-B)"));
     assert!(says(&harness, "Ours: simulated noise") && says(&harness, papers::COLUMNS[1]));
+    assert!(says(&harness, papers::COLUMNS[3]), "the tolerance");
     assert_eq!(unnamed_controls(&harness), Vec::<String>::new());
     assert!(folder.path().join("S4.md").is_file() && folder.path().join("index.md").is_file());
     // The sheet takes its new size around the results.

@@ -3,6 +3,7 @@
 pub mod directional;
 mod error;
 mod heldout;
+mod level_jump;
 mod order;
 mod pieces;
 mod smear;
@@ -74,7 +75,7 @@ pub struct FitReport {
     pub tap: Option<TapFit>,
     /// What the models of the [`Comparison`]s were not fitted to.
     pub held_out: HeldOut,
-    /// Sentences on what was left out of the fit, and why.
+    /// Sentences on what was left out of the fit, and why, and on what the recordings make doubtful.
     pub notes: Vec<String>,
 }
 
@@ -180,6 +181,7 @@ pub fn fit(recordings: &[Recording], options: &FitOptions) -> Result<Fitted, Fit
     }
     let pieces::Cut { pieces, rate, mut notes } = pieces::cut(recordings, options.rate)?;
     let surface = Surface::new(pieces.iter().collect());
+    notes.extend(level_jump::note(&pieces, surface.exponents(), recordings.len()));
     let split = Split::new(&pieces, rate);
     let (order, (model, compared)) = first_playable(&orders(&split, options.order)?, |order| {
         let model = surface.model(rate, order, options.interpolation)?;

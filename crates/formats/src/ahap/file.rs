@@ -9,6 +9,7 @@ use super::{
     AhapError, AhapEvent, AhapEventKind, AhapPattern, ControlPoint, DynamicParameter, MAX_EVENT_SECS,
     ParameterCurve,
 };
+use crate::first_faults::FirstFaults;
 use crate::imported::Imported;
 use crate::text_limits::begin_of;
 
@@ -143,22 +144,18 @@ impl PatternFileV1 {
         }
     }
 
-    /// Checks the file and returns its pattern.
-    pub(super) fn pattern(self) -> Result<Imported<AhapPattern>, AhapError> {
+    /// Checks the file and returns its valid entries, and the faults of the others.
+    pub(super) fn pattern(self) -> Result<(Imported<AhapPattern>, FirstFaults<AhapError>), AhapError> {
         if let Some(version) = self.version.filter(|version| !(VERSION..VERSION + 1.0).contains(version)) {
             return Err(AhapError::Version { version });
         }
         let (mut pattern, mut reader) = (AhapPattern::default(), Reader::default());
+        let mut faults = FirstFaults::default();
         for (index, entry) in self.pattern.into_iter().enumerate() {
             reader.number = index + 1;
-            match (entry.event, entry.parameter, entry.parameter_curve) {
-                (Some(event), None, None) => pattern.events.push(reader.event(*event)?),
-                (None, Some(parameter), None) => pattern.parameters.extend(reader.dynamic(&parameter)?),
-                (None, None, Some(curve)) => pattern.curves.extend(reader.curve(*curve)?),
-                _ => return Err(AhapError::Entry { number: index + 1 }),
-            }
+            reader.entry(entry, &mut pattern).unwrap_or_else(|fault| faults.add(fault));
         }
-        Ok(Imported { value: pattern, warnings: reader.warnings() })
+        Ok((Imported { value: pattern, warnings: reader.warnings() }, faults))
     }
 }
 
@@ -182,6 +179,17 @@ struct Reader {
 const MAX_UNKNOWN: usize = 5;
 
 impl Reader {
+    /// Adds an entry to a pattern.
+    fn entry(&mut self, entry: EntryV1, pattern: &mut AhapPattern) -> Result<(), AhapError> {
+        match (entry.event, entry.parameter, entry.parameter_curve) {
+            (Some(event), None, None) => pattern.events.push(self.event(*event)?),
+            (None, Some(parameter), None) => pattern.parameters.extend(self.dynamic(&parameter)?),
+            (None, None, Some(curve)) => pattern.curves.extend(self.curve(*curve)?),
+            _ => return Err(AhapError::Entry { number: self.number }),
+        }
+        Ok(())
+    }
+
     fn event(&mut self, event: EventV1) -> Result<AhapEvent, AhapError> {
         let number = self.number;
         let Some(kind) = AhapEventKind::of(&event.event_type) else {

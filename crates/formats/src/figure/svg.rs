@@ -6,7 +6,7 @@ use plotters::coord::combinators::IntoLogRange as _;
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::coord::types::RangedCoordf64;
 use plotters::drawing::DrawingAreaErrorKind;
-use plotters::element::{Circle, EmptyElement, PathElement, Rectangle, Text};
+use plotters::element::{Circle, DashedPathElement, EmptyElement, PathElement, Rectangle, Text};
 use plotters::prelude::{
     Cartesian2d, DrawingArea, IntoDrawingArea as _, IntoFont as _, RGBColor, SVGBackend, TextStyle,
 };
@@ -32,6 +32,8 @@ const MARGIN: u32 = 16;
 const TITLE_LINE: u32 = 20;
 /// Height of a table row, in pixels.
 const ROW: i32 = 24;
+/// Length of a dash and of the gap after it, in pixels.
+const DASH: (i32, i32) = (6, 4);
 /// Colors of a map: finer steps are indistinguishable, and adjacent cells of equal color form one rectangle.
 const N_COLORS: u32 = 64;
 
@@ -94,6 +96,10 @@ fn color(tone: Tone) -> RGBColor {
         Tone::Second => RGBColor(0xC0, 0x4A, 0x1B),
         Tone::Third => RGBColor(0x16, 0x6C, 0xAB),
         Tone::Fourth => RGBColor(0xA3, 0x3C, 0x78),
+        Tone::Fifth => RGBColor(0x5E, 0x2A, 0x06),
+        Tone::Sixth => RGBColor(0x16, 0x16, 0x8A),
+        Tone::Seventh => RGBColor(0x2F, 0x5B, 0xE6),
+        Tone::Eighth => RGBColor(0xC4, 0x18, 0x4A),
         Tone::Limit => INK,
         Tone::Faint => RGBColor(0xB4, 0xBE, 0xC2),
     }
@@ -171,6 +177,12 @@ fn draw_series<'a, X: Ranged<ValueType = f64> + ValueFormatter<f64>>(
                     .draw_series([line])?
                     .label(&series.name)
                     .legend(move |(x, y)| PathElement::new([(x, y), (x + 14, y)], tone.stroke_width(2)));
+            }
+            Mark::DashedLine => {
+                let dashed = DashedPathElement::new(points, DASH.0, DASH.1, tone.stroke_width(2));
+                context.draw_series([dashed])?.label(&series.name).legend(move |(x, y)| {
+                    DashedPathElement::new([(x, y), (x + 14, y)], DASH.0, DASH.1, tone.stroke_width(2))
+                });
             }
             Mark::Segments => {
                 let width = if series.tone == Tone::Faint { 1 } else { 2 };

@@ -1,6 +1,6 @@
 use super::{
-    Chart, Figure, Map, Mark, Point, Scale, Series, Table, Tone, figure_csv, figure_svg, is_figure_csv,
-    page_svg,
+    Chart, Figure, Map, Mark, Point, Scale, Series, Table, Tone, compared_line, figure_csv, figure_svg,
+    is_figure_csv, page_svg,
 };
 
 fn chart() -> Chart {
@@ -161,4 +161,27 @@ fn a_map_is_drawn_and_saved_cell_by_cell() {
     assert!(svg.contains("Spectrogram") && svg.contains("density"), "{svg}");
     // The values below and above the range take its end colors.
     assert!(svg.contains("#00224E") && svg.contains("#FEE838"), "{svg}");
+}
+
+/// Seven participants have seven colors, and the lines after the fourth are dashed.
+#[test]
+fn compared_lines_have_colors_and_styles_of_their_own() {
+    let of = |n: usize| {
+        let line = |index: usize| {
+            let (mark, tone) = compared_line(index);
+            let points = (0..20).map(|x| Point::new(f64::from(x), index as f64)).collect();
+            Series { name: format!("P{index}"), mark, tone, points }
+        };
+        figure_svg(&Figure::Chart(Chart { series: (0..n).map(line).collect(), ..chart() }))
+    };
+    let colors = |svg: &str| {
+        let strokes =
+            svg.split("<polyline").skip(1).filter_map(|line| line.split("stroke=\"").nth(1)?.get(..7));
+        strokes.map(str::to_owned).collect::<std::collections::BTreeSet<String>>()
+    };
+    let (four, seven) = (of(4), of(7));
+    assert_eq!(colors(&seven).difference(&colors(&of(1))).count(), 6, "{:?}", colors(&seven));
+    // Each dash is a line.
+    let n_lines = |svg: &str| svg.matches("<polyline").count();
+    assert!(n_lines(&seven) > n_lines(&four) + 60, "{} and {}", n_lines(&four), n_lines(&seven));
 }

@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use super::{HapticClip, MAX_CLIP_SECS};
+use super::{AmplitudePoint, HapticClip, MAX_CLIP_SECS};
+use crate::first_faults::FirstFaults;
 
 /// How strictly a clip is checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,57 +117,78 @@ pub enum HapticClipError {
     },
 }
 
-/// Checks all rules, in the order of the points. Numbers are compared in 32 bits, as players hold them: editors write ends of
+/// Returns the broken rules. Of the values of a point, only the first fault is one. Numbers are compared in 32 bits, as players hold them: editors write ends of
 /// envelopes, and sums such as 0.7 + 0.3, with different rounding.
-pub(super) fn check(clip: &HapticClip, rules: ClipRules) -> Result<(), HapticClipError> {
+pub(super) fn check(clip: &HapticClip, rules: ClipRules) -> FirstFaults<HapticClipError> {
+    let mut faults = FirstFaults::default();
     let n = clip.amplitude.len();
     if n < 2 {
-        return Err(HapticClipError::TooFewPoints { n });
+        faults.add(HapticClipError::TooFewPoints { n });
     }
-    check_times("amplitude", clip.amplitude.iter().map(|point| point.time_secs))?;
+    check_times("amplitude", clip.amplitude.iter().map(|point| point.time_secs), &mut faults);
+    // Without valid times, the clip has no begin and no end that a rule could be about.
+    let has_times = faults.n == 0;
     for (index, point) in clip.amplitude.iter().enumerate() {
         let place = ClipPlace { envelope: "amplitude", number: index + 1 };
-        check_range(place, "amplitude", point.amplitude)?;
-        let Some(emphasis) = point.emphasis else { continue };
-        check_range(place, "amplitude of the emphasis", emphasis.amplitude)?;
-        check_range(place, "frequency of the emphasis", emphasis.frequency)?;
-        if (emphasis.amplitude as f32) < point.amplitude as f32 {
-            return Err(HapticClipError::WeakEmphasis {
-                place,
-                emphasis: emphasis.amplitude,
-                amplitude: point.amplitude,
-            });
-        }
+        check_amplitude(place, point).unwrap_or_else(|fault| faults.add(fault));
     }
     let (start_secs, end_secs) = (clip.start_secs(), clip.end_secs());
-    if end_secs <= start_secs {
-        return Err(HapticClipError::NoDuration { secs: start_secs });
+    let has_duration = end_secs > start_secs;
+    if has_times && !has_duration {
+        faults.add(HapticClipError::NoDuration { secs: start_secs });
     }
-    check_times("frequency", clip.frequency.iter().map(|point| point.time_secs))?;
+    check_times("frequency", clip.frequency.iter().map(|point| point.time_secs), &mut faults);
+    let is_bounded = has_times && has_duration && rules == ClipRules::Strict;
     for (index, point) in clip.frequency.iter().enumerate() {
         let (place, secs) = (ClipPlace { envelope: "frequency", number: index + 1 }, point.time_secs);
-        check_range(place, "frequency", point.frequency)?;
+        check_range(place, "frequency", point.frequency).unwrap_or_else(|fault| faults.add(fault));
         let in_envelope = (start_secs as f32..=end_secs as f32).contains(&(secs as f32));
-        if rules == ClipRules::Strict && !in_envelope {
-            return Err(HapticClipError::FrequencyOutside { place, secs, start_secs, end_secs });
+        // A time that no clip may have was a fault already.
+        if is_bounded && !in_envelope && is_time(secs) {
+            faults.add(HapticClipError::FrequencyOutside { place, secs, start_secs, end_secs });
         }
+    }
+    faults
+}
+
+fn check_amplitude(place: ClipPlace, point: &AmplitudePoint) -> Result<(), HapticClipError> {
+    check_range(place, "amplitude", point.amplitude)?;
+    let Some(emphasis) = point.emphasis else { return Ok(()) };
+    check_range(place, "amplitude of the emphasis", emphasis.amplitude)?;
+    check_range(place, "frequency of the emphasis", emphasis.frequency)?;
+    if (emphasis.amplitude as f32) < point.amplitude as f32 {
+        return Err(HapticClipError::WeakEmphasis {
+            place,
+            emphasis: emphasis.amplitude,
+            amplitude: point.amplitude,
+        });
     }
     Ok(())
 }
 
-fn check_times(envelope: &'static str, times_secs: impl Iterator<Item = f64>) -> Result<(), HapticClipError> {
+fn check_times(
+    envelope: &'static str,
+    times_secs: impl Iterator<Item = f64>,
+    faults: &mut FirstFaults<HapticClipError>,
+) {
     let mut previous_secs = 0.0;
     for (index, secs) in times_secs.enumerate() {
         let place = ClipPlace { envelope, number: index + 1 };
-        if !(0.0..=MAX_CLIP_SECS).contains(&secs) {
-            return Err(HapticClipError::Time { place, secs });
+        if !is_time(secs) {
+            faults.add(HapticClipError::Time { place, secs });
+            continue;
         }
         if secs < previous_secs {
-            return Err(HapticClipError::Order { place, secs });
+            faults.add(HapticClipError::Order { place, secs });
         }
+        // Also after one that is too early, so that a single late point is one fault.
         previous_secs = secs;
     }
-    Ok(())
+}
+
+/// Whether a clip may have this time.
+fn is_time(secs: f64) -> bool {
+    (0.0..=MAX_CLIP_SECS).contains(&secs)
 }
 
 fn check_range(place: ClipPlace, what: &'static str, value: f64) -> Result<(), HapticClipError> {

@@ -185,3 +185,26 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn independent_faults_are_all_listed_and_their_consequences_are_not() {
+    let faults = |clip: &HapticClip| {
+        let (_, faults) = HapticClip::with_faults(&clip.to_json(), ClipRules::Strict).unwrap();
+        assert_eq!(faults.first.len(), faults.n);
+        assert_eq!(clip.clone().checked(ClipRules::Strict).err(), faults.first.first().cloned());
+        faults.first.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    assert_eq!(faults(&clip()), "");
+    // One late point, two loud ones and a frequency out of range.
+    let amplitude = vec![point(0.0, 0.5), point(9.0, 2.0), point(0.2, 3.0), point(0.4, 0.0)];
+    let mut broken = HapticClip { amplitude, frequency: vec![frequency(0.1, -1.0)], ..clip() };
+    let listed = faults(&broken);
+    assert_eq!(listed.lines().count(), 4, "{listed}");
+    assert_eq!(listed.matches("before the previous point").count(), 1, "{listed}");
+    // The times of the amplitude are wrong, so that nothing is known about the place of a frequency.
+    broken.frequency = vec![frequency(5.0, 0.5)];
+    assert_eq!(faults(&broken).lines().count(), 3);
+    // Nothing more follows from a missing envelope.
+    broken.amplitude.clear();
+    assert_eq!(faults(&broken).lines().count(), 1);
+}

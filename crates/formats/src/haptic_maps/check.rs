@@ -4,6 +4,7 @@
 
 use serde_json::Value;
 
+use crate::first_faults::FirstFaults;
 use crate::foreign_file::Found;
 use crate::foreign_json::{ObjectFault, read_object};
 use crate::haptic_maps::faults::{GltfFault, Scene, list_of, number_of};
@@ -92,7 +93,7 @@ pub fn check_gltf(bytes: &[u8]) -> Result<CheckedGltf, GltfError> {
         scene.add("extensionsUsed", format!("{EXTENSION} is used but not listed; add it"));
     }
     let files = files(&mut scene);
-    let Scene { faults, n_faults, .. } = scene;
+    let FirstFaults { first: faults, n: n_faults } = scene.faults;
     Ok(CheckedGltf { faults, n_faults, n_haptic_materials, files })
 }
 

@@ -4,12 +4,11 @@ use std::fmt;
 
 use serde_json::Value;
 
+use crate::first_faults::FirstFaults;
 use crate::text_limits::begin_of;
 
 /// Most characters of a value in a fault.
 const MOST_SHOWN: usize = 40;
-/// Most faults that are kept.
-const MOST_KEPT: usize = 100;
 
 /// Fault of a scene, and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -29,20 +28,16 @@ impl fmt::Display for GltfFault {
 /// A scene that is checked, with the faults found so far.
 pub(super) struct Scene<'a> {
     root: &'a Value,
-    pub(super) faults: Vec<GltfFault>,
-    pub(super) n_faults: usize,
+    pub(super) faults: FirstFaults<GltfFault>,
 }
 
 impl<'a> Scene<'a> {
     pub(super) fn new(root: &'a Value) -> Self {
-        Self { root, faults: Vec::new(), n_faults: 0 }
+        Self { root, faults: FirstFaults::default() }
     }
 
     pub(super) fn add(&mut self, place: impl Into<String>, reason: impl Into<String>) {
-        self.n_faults += 1;
-        if self.faults.len() < MOST_KEPT {
-            self.faults.push(GltfFault { place: place.into(), reason: reason.into() });
-        }
+        self.faults.add(GltfFault { place: place.into(), reason: reason.into() });
     }
 
     /// A list of the scene, empty if there is none.

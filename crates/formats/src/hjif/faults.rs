@@ -2,13 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use crate::first_faults::FirstFaults;
 use crate::hjif::rule::{Fault, Rule};
 use crate::hjif::tree::Profile;
 
 /// Most characters of a text in a fault.
 pub(super) const MOST_SHOWN: usize = 40;
-/// Most faults that are kept. A file may break a rule in each of millions of places.
-const MOST_KEPT: usize = 100;
 
 /// What parts of a file are checked against: its profile and level, and the library of their perception.
 pub(super) struct Context<'a> {
@@ -22,19 +21,13 @@ pub(super) struct Context<'a> {
     pub(super) scheme: Option<&'a str>,
 }
 
-/// The first faults of a file, and the number of all.
+/// Faults of a file that were found so far.
 #[derive(Default)]
-pub(super) struct Faults {
-    pub(super) first: Vec<Fault>,
-    pub(super) n: usize,
-}
+pub(super) struct Faults(pub(super) FirstFaults<Fault>);
 
 impl Faults {
     pub(super) fn add(&mut self, place: impl Into<String>, rule: Rule) {
-        self.n += 1;
-        if self.first.len() < MOST_KEPT {
-            self.first.push(Fault { place: place.into(), rule });
-        }
+        self.0.add(Fault { place: place.into(), rule });
     }
 
     /// Adds a fault for each id that an earlier part has already; `place` is that of the list.

@@ -1,5 +1,6 @@
 //! Reading and checking `.hjif` files.
 
+use crate::first_faults::FirstFaults;
 use crate::foreign_file::Found;
 use crate::foreign_json::{ObjectFault, read_object};
 use crate::hjif::check::check;
@@ -71,7 +72,7 @@ pub fn read_hjif(bytes: &[u8]) -> Result<Hjif, HjifError> {
 /// [`HjifError::Foreign`] and [`HjifError::Damaged`]: the tree of the file cannot be read.
 pub fn check_hjif(bytes: &[u8]) -> Result<Checked, HjifError> {
     let file: Hjif = read_object(bytes)?;
-    let Faults { first: faults, n: n_faults } = check(&file);
+    let Faults(FirstFaults { first: faults, n: n_faults }) = check(&file);
     Ok(Checked { file, faults, n_faults })
 }
 

@@ -51,14 +51,14 @@ fn section(page: &mut String, of: &Reproduction, item: &ReproducedItem) {
 }
 
 fn row(page: &mut String, row: &ReproducedRow) {
-    let tolerance = row.printed.as_ref().map_or_else(|| "\u{2013}".to_owned(), |of| of.tolerance.to_string());
     let _ = writeln!(
         page,
-        "| {} | {} | {} | {} | {tolerance} | {} |",
+        "| {} | {} | {} | {} | {} | {} |",
         escaped(&row.quantity()),
         row.printed_text(),
         row.ours_text(),
         row.difference_text(),
+        row.tolerance_text(),
         escaped(&row.remarks())
     );
 }

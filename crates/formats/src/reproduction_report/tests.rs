@@ -82,6 +82,9 @@ fn the_edge_of_a_tolerance_is_equal() {
     assert_eq!(item.rows[0].is_equal(), Some(true));
     item.set("pair-1", Some(0.9199), "");
     assert_eq!(item.rows[0].is_equal(), Some(false));
+    assert_eq!(item.rows[0].tolerance_text(), "0.05");
+    item.add("not printed", "", Some(1.0));
+    assert_eq!(item.rows.last().unwrap().tolerance_text(), "\u{2013}");
 }
 
 #[test]

@@ -10,7 +10,9 @@ use shagreen_core::texture::blend::Mode;
 use shagreen_core::words::near;
 use shagreen_device::track::MAX_TRACK_SECS;
 use shagreen_formats::acf::acf;
-use shagreen_formats::batch_manifest::{BatchChoice, BatchManifest, BatchOutput, BatchPath, BatchTexture};
+use shagreen_formats::batch_manifest::{
+    BatchChoice, BatchManifest, BatchOutput, BatchPath, BatchSource, BatchTexture,
+};
 use shagreen_formats::library::{Library, TextureEntry};
 
 use super::folder::RECORDS;
@@ -39,8 +41,22 @@ pub fn plan(
     created_by: &str,
     reporter: &dyn Reporter,
 ) -> Result<BatchPlan, Vec<(String, String)>> {
+    plan_with_problems(manifest, sources, (Vec::new(), created_by), reporter)
+}
+
+/// As [`plan`], for a manifest with problems that were found before, which come first. Of their keys, no further problem is
+/// reported: it could be a consequence. If a key of [`BatchSource::KEYS`] is among them, the textures are not looked for.
+///
+/// # Errors
+/// All problems, also those that were found before.
+pub fn plan_with_problems(
+    manifest: BatchManifest,
+    sources: BatchSources,
+    (found, created_by): (Vec<(String, String)>, &str),
+    reporter: &dyn Reporter,
+) -> Result<BatchPlan, Vec<(String, String)>> {
     let sha256 = library_sha256(&sources.library);
-    let mut finder = Finder { sources, spaces: BTreeMap::new(), problems: Vec::new(), reporter };
+    let mut finder = Finder { sources, spaces: BTreeMap::new(), found, problems: Vec::new(), reporter };
     let outputs: Vec<PlannedOutput> = manifest
         .outputs
         .iter()
@@ -50,8 +66,10 @@ pub fn plan(
     let mut named: Vec<(String, Target)> = Vec::new();
     // Paths become textures of the library, which must not be part of "all".
     let ids: Vec<String> = finder.sources.library.textures.iter().map(|texture| texture.id.clone()).collect();
-    for (index, texture) in manifest.textures.iter().enumerate() {
-        named.extend(finder.targets(index, texture, &ids));
+    if !BatchSource::KEYS.into_iter().any(|key| finder.was_found(key)) {
+        for (index, texture) in manifest.textures.iter().enumerate() {
+            named.extend(finder.targets(index, texture, &ids));
+        }
     }
     let stems = paths_in(Path::new(""), named.iter().map(|(name, _)| name), "");
     let targets: Vec<Target> = named
@@ -59,8 +77,14 @@ pub fn plan(
         .zip(stems)
         .map(|((name, target), stem)| Target { name, stem: stem.display().to_string(), ..target })
         .collect();
-    let Finder { sources, spaces, mut problems, .. } = finder;
+    let Finder { sources, spaces, found: mut problems, problems: further, .. } = finder;
+    problems.extend(further);
     let plan = BatchPlan { manifest, sources, spaces, outputs, targets, library_sha256: sha256 };
+    for (key, text) in plan.rate_problems() {
+        if !problems.iter().any(|(known, _)| *known == key) {
+            problems.push((key, text));
+        }
+    }
     let n_jobs = plan.n_textures().saturating_mul(plan.n_jobs_each());
     if problems.is_empty() && n_jobs == 0 {
         problems.push((
@@ -80,13 +104,22 @@ pub fn plan(
 struct Finder<'a> {
     sources: BatchSources,
     spaces: BTreeMap<&'static str, Authoring>,
+    /// Problems that were found before.
+    found: Vec<(String, String)>,
     problems: Vec<(String, String)>,
     reporter: &'a dyn Reporter,
 }
 
 impl Finder<'_> {
     fn problem(&mut self, key: String, text: String) {
-        self.problems.push((key, text));
+        if !self.was_found(&key) {
+            self.problems.push((key, text));
+        }
+    }
+
+    /// Whether a problem of this key was found before.
+    fn was_found(&self, key: &str) -> bool {
+        self.found.iter().any(|(known, _)| known == key)
     }
 
     fn output(
@@ -110,7 +143,8 @@ impl Finder<'_> {
             if output.loops {
                 self.check_loop(&strokes, manifest, &key("loop"));
             }
-            if strokes.is_empty() {
+            let is_consequence = self.was_found("stroke") || self.was_found(&key("strokes"));
+            if strokes.is_empty() && !is_consequence {
                 self.problem(key("format"), "signals need a stroke; add a [[stroke]]".to_owned());
             }
             let actuator = self.sources.actuators.get(index).and_then(Option::as_ref);

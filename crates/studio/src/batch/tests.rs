@@ -6,11 +6,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use shagreen_core::maths::shard::Shard;
 use shagreen_core::texture::shape::Shape;
 use shagreen_core::units::Contact;
-use shagreen_formats::batch_manifest::{BatchManifest, BatchMotion, batch_problems, read_batch_manifest};
+use shagreen_formats::batch_manifest::{
+    BatchManifest, BatchMotion, batch_manifest_with_problems, batch_problems, read_batch_manifest,
+};
 use shagreen_formats::starter::starter_library;
 use shagreen_formats::stroke::TimedContact;
 
-use super::{BatchOptions, BatchOutcome, BatchPlan, BatchProject, BatchSources, LoadedStroke, MARK, plan};
+use super::{
+    BatchOptions, BatchOutcome, BatchPlan, BatchProject, BatchSources, LoadedStroke, MARK, plan,
+    plan_with_problems,
+};
 use crate::project::{new_project, textures_of};
 use crate::report::Warnings;
 use crate::stroke_contacts::StrokeContacts;
@@ -182,13 +187,54 @@ fn a_change_makes_the_files_again_that_depend_on_it() {
 #[test]
 fn a_job_that_fails_leaves_the_others_alone() {
     let root = tempfile::tempdir().unwrap();
-    // The models have 1000 Hz.
-    let text = MANIFEST.replace("rate_hz = 2000", "rate_hz = 500");
+    // A shaped texture has no heights, which the job finds.
+    let text = MANIFEST.replace("format = \"hatt\"", "format = \"maps\"");
     let outcome = run(&planned(&text).unwrap(), root.path(), 2, Shard::WHOLE);
-    assert_eq!((outcome.failed().count(), outcome.n_written()), (8, 8));
     let failed: Vec<(&str, &str)> = outcome.failed().collect();
-    assert!(failed[0].0.starts_with("wav/cork--") && failed[0].1.contains("sample rate"), "{failed:?}");
-    assert!(!root.path().join("wav/cork--slow.wav").exists());
+    assert!(failed[0].0 == "models/cork" && failed[0].1.contains("no height map"), "{failed:?}");
+    assert!(failed.iter().all(|(job, _)| job.starts_with("models/")), "{failed:?}");
+    assert_eq!(outcome.n_written(), N_JOBS - failed.len());
+    assert!(root.path().join("wav/cork--slow.wav").is_file());
+    assert!(!root.path().join("models/cork.gltf").exists());
+}
+
+/// A rate below that of the models is found once, before any job runs, for textures, points and paths.
+#[test]
+fn a_rate_that_is_too_low_is_a_problem_of_the_manifest() {
+    // The models have 1000 Hz.
+    let low = MANIFEST.replace("rate_hz = 2000", "rate_hz = 500");
+    let problems = planned(&low).err().unwrap();
+    for words in ["1 problem: ", "output[1].rate_hz: it is 500 Hz", "of 4 textures", "at least 1000 Hz"] {
+        assert!(problems.contains(words), "{words:?} is not in {problems:?}");
+    }
+    let mixing = low.replace("at = [[30, 70]]", "at = [[30, 70]]\nblend = \"shared\"");
+    let problems = planned(&mixing).err().unwrap();
+    assert!(problems.contains("of 4 textures"), "{problems}");
+    assert!(planned(&MANIFEST.replace("rate_hz = 2000", "rate_hz = 1000")).is_ok());
+}
+
+/// Problems of one kind hide none of another, and consequences are not reported.
+#[test]
+fn problems_that_were_found_before_come_first_and_hide_their_consequences() {
+    let text = MANIFEST
+        .replace("\"felt\"]", "\"fellt\"]")
+        .replace("format = \"hatt\"", "format = 3")
+        .replace("rate_hz = 2000", "rate_hz = 500");
+    let problems = |further: Option<&str>| {
+        let (manifest, mut found) = batch_manifest_with_problems(text.as_bytes()).unwrap();
+        found.extend(further.map(|key| (key.to_owned(), "cannot be read".to_owned())));
+        let sources = BatchSources {
+            library: starter_library().unwrap(),
+            project: None,
+            strokes: manifest.strokes.iter().map(|stroke| loaded(&stroke.motion)).collect(),
+            actuators: vec![None; manifest.outputs.len()],
+        };
+        let planned = plan_with_problems(manifest, sources, (found, "test"), &Warnings::default());
+        planned.err().unwrap().into_iter().map(|(key, _)| key).collect::<Vec<String>>()
+    };
+    assert_eq!(problems(None), ["output[3].format", "texture[1].ids", "output[1].rate_hz"]);
+    // Without a library, nothing is known about textures and their rates.
+    assert_eq!(problems(Some("library")), ["output[3].format", "library"]);
 }
 
 #[test]

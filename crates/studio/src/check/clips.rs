@@ -1,10 +1,13 @@
-//! Check of `.haptic` clips and AHAP patterns, whose readers stop at the first broken rule.
+//! Check of `.haptic` clips and AHAP patterns: of each point and of each entry, the first broken rule.
+
+use std::fmt::Display;
 
 use anyhow::bail;
 use shagreen_core::words::counted;
-use shagreen_formats::ahap::{AhapError, AhapPattern};
+use shagreen_formats::ahap::AhapPattern;
+use shagreen_formats::first_faults::FirstFaults;
 use shagreen_formats::foreign_file::Found;
-use shagreen_formats::haptic_clip::{ClipRules, HapticClip, HapticClipError};
+use shagreen_formats::haptic_clip::{ClipRules, HapticClip};
 
 use super::Checked;
 
@@ -17,24 +20,15 @@ const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// The bytes are no clip of the known version.
 pub(super) fn checked_haptic(bytes: &[u8]) -> anyhow::Result<Checked> {
     let bytes = object(bytes, "a haptic clip (.haptic)", "haptic")?;
-    match HapticClip::from_json(bytes, ClipRules::Strict) {
-        Ok(clip) => {
-            let n_emphases = clip.amplitude.iter().filter(|point| point.emphasis.is_some()).count();
-            let about = [
-                format!("{} of amplitude", counted(clip.amplitude.len(), "point")),
-                format!("{} of frequency", counted(clip.frequency.len(), "point")),
-                counted(n_emphases, "short event"),
-                format!("{:.3} s", clip.end_secs() - clip.start_secs()),
-            ];
-            Ok(Checked { about: about.join(", "), faults: Vec::new(), warnings: Vec::new(), n_faults: 0 })
-        }
-        Err(
-            error @ (HapticClipError::Json(_)
-            | HapticClipError::TooDense { .. }
-            | HapticClipError::Version { .. }),
-        ) => Err(error.into()),
-        Err(error) => Ok(first_fault(error.to_string())),
-    }
+    let (clip, faults) = HapticClip::with_faults(bytes, ClipRules::Strict)?;
+    let n_emphases = clip.amplitude.iter().filter(|point| point.emphasis.is_some()).count();
+    let about = [
+        format!("{} of amplitude", counted(clip.amplitude.len(), "point")),
+        format!("{} of frequency", counted(clip.frequency.len(), "point")),
+        counted(n_emphases, "short event"),
+        format!("{:.3} s", clip.end_secs() - clip.start_secs()),
+    ];
+    Ok(checked(about.join(", "), &faults, Vec::new()))
 }
 
 /// Checks an AHAP pattern. What players ignore or clamp is a warning.
@@ -43,20 +37,13 @@ pub(super) fn checked_haptic(bytes: &[u8]) -> anyhow::Result<Checked> {
 /// The bytes are no pattern of the known version.
 pub(super) fn checked_ahap(bytes: &[u8]) -> anyhow::Result<Checked> {
     let bytes = object(bytes, "an AHAP pattern (.ahap)", "ahap")?;
-    match AhapPattern::from_json(bytes) {
-        Ok(read) => {
-            let about = [
-                counted(read.value.events.len(), "event"),
-                counted(read.value.curves.len(), "curve"),
-                format!("{:.3} s", read.value.end_secs()),
-            ];
-            Ok(Checked { about: about.join(", "), faults: Vec::new(), warnings: read.warnings, n_faults: 0 })
-        }
-        Err(error @ (AhapError::Json(_) | AhapError::TooDense { .. } | AhapError::Version { .. })) => {
-            Err(error.into())
-        }
-        Err(error) => Ok(first_fault(error.to_string())),
-    }
+    let (read, faults) = AhapPattern::with_faults(bytes)?;
+    let about = [
+        counted(read.value.events.len(), "event"),
+        counted(read.value.curves.len(), "curve"),
+        format!("{:.3} s", read.value.end_secs()),
+    ];
+    Ok(checked(about.join(", "), &faults, read.warnings))
 }
 
 /// Returns the bytes of a JSON object without a byte order mark.
@@ -68,9 +55,9 @@ fn object<'a>(bytes: &'a [u8], wanted: &str, format: &str) -> anyhow::Result<&'a
     bail!(Found::of(bytes).instead_of(wanted, format))
 }
 
-fn first_fault(fault: String) -> Checked {
-    let about = "what follows is the first broken rule".to_owned();
-    Checked { about, faults: vec![fault], warnings: Vec::new(), n_faults: 1 }
+fn checked<T: Display>(about: String, faults: &FirstFaults<T>, warnings: Vec<String>) -> Checked {
+    let first = faults.first.iter().map(ToString::to_string).collect();
+    Checked { about, faults: first, warnings, n_faults: faults.n }
 }
 
 #[cfg(test)]
@@ -84,7 +71,7 @@ mod tests {
         "EventParameters": [{"ParameterID": "HapticIntensity", "ParameterValue": 1}]}}]}"#;
 
     #[test]
-    fn a_clip_follows_the_rules_or_its_first_fault_is_named() {
+    fn a_clip_follows_the_rules_or_its_faults_are_named() {
         for text in [CLIP.to_owned(), format!("\u{feff}{CLIP}")] {
             let checked = checked_haptic(text.as_bytes()).unwrap();
             assert_eq!(checked.about, "2 points of amplitude, 1 point of frequency, 1 short event, 1.000 s");
@@ -93,12 +80,16 @@ mod tests {
         let late = CLIP.replace("{\"time\": 1, \"frequency\"", "{\"time\": 2, \"frequency\"");
         let checked = checked_haptic(late.as_bytes()).unwrap();
         assert!(checked.faults[0].contains("point 1 of the frequency envelope") && checked.n_faults == 1);
+        let loud = late.replace("\"amplitude\": 0.5", "\"amplitude\": 5");
+        let checked = checked_haptic(loud.as_bytes()).unwrap();
+        assert!(checked.faults[0].contains("point 1 of the amplitude envelope"), "{checked:?}");
+        assert!(checked.faults[1].contains("point 1 of the frequency envelope") && checked.n_faults == 2);
         let error = checked_haptic(CLIP.replace("\"major\": 1", "\"major\": 2").as_bytes()).unwrap_err();
         assert!(error.to_string().contains("version 2"), "{error}");
     }
 
     #[test]
-    fn a_pattern_follows_the_rules_or_its_first_fault_is_named() {
+    fn a_pattern_follows_the_rules_or_its_faults_are_named() {
         let checked = checked_ahap(PATTERN.as_bytes()).unwrap();
         assert_eq!((&*checked.about, checked.warnings.len()), ("1 event, 0 curves, 2.000 s", 0));
         let loud = PATTERN.replace("\"ParameterValue\": 1", "\"ParameterValue\": 7");
@@ -106,6 +97,14 @@ mod tests {
         assert!(checked.n_faults == 0 && checked.warnings[0].contains("clamped"), "{checked:?}");
         let checked = checked_ahap(PATTERN.replace("\"Event\"", "\"Events\"").as_bytes()).unwrap();
         assert!(checked.faults[0].contains("entry 1") && checked.n_faults == 1, "{checked:?}");
+        let twice =
+            PATTERN.replace("\"Pattern\": [", "\"Pattern\": [{\"Event\": {\"EventType\": \"Buzz\"}}, {}, ");
+        let checked = checked_ahap(twice.as_bytes()).unwrap();
+        assert!(
+            checked.faults[0].contains("\"Buzz\"") && checked.faults[1].contains("entry 2"),
+            "{checked:?}"
+        );
+        assert_eq!((&*checked.about, checked.n_faults), ("1 event, 0 curves, 2.000 s", 2));
         assert!(checked_ahap(b"{\"Version\": 1}").unwrap_err().to_string().contains("`Pattern` is missing"));
         assert!(checked_ahap(b"").unwrap_err().to_string().contains("the file is empty"));
     }

@@ -100,7 +100,8 @@ pub fn refuse_existing(paths: &[PathBuf], replaces: bool) -> Result<(), Existing
 }
 
 /// Writes the models of textures to these paths, in the same order, and to files beside them if the format has several: all or
-/// none. `folder` is created if it does not exist. Returns the paths of the files of each texture.
+/// none. `folder` is created if it does not exist. Returns the paths of the files of each texture. It warns of files of an earlier
+/// export that belong to no file of this one.
 ///
 /// # Errors
 /// The format cannot represent a texture, which the message names, or a file cannot be written.
@@ -108,10 +109,10 @@ pub fn write_models(
     entries: &[TextureEntry],
     paths: &[PathBuf],
     format: &dyn ExportFormat,
-    context: &ExportContext<'_>,
-    folder: Option<&Path>,
+    (folder, context): (Option<&Path>, &ExportContext<'_>),
+    reporter: &dyn Reporter,
 ) -> anyhow::Result<Vec<Vec<PathBuf>>> {
-    let (mut files, mut written) = (Vec::with_capacity(paths.len()), Vec::with_capacity(paths.len()));
+    let (mut files, mut written) = (Vec::new(), Vec::<Vec<PathBuf>>::with_capacity(paths.len()));
     for (entry, path) in entries.iter().zip(paths) {
         let of_texture = model_files(entry, format, path, context);
         let of_texture = of_texture.with_context(|| format!("\"{}\"", entry.name))?;
@@ -119,6 +120,9 @@ pub fn write_models(
         files.extend(of_texture);
     }
     write_together(&files, folder)?;
+    for (path, written) in paths.iter().zip(&written) {
+        warn_of_stale(format, path, written, reporter);
+    }
     Ok(written)
 }
 
@@ -153,10 +157,7 @@ pub fn export_all(
     }
     // A file does not carry the library along.
     let with_terms: Vec<TextureEntry> = entries.iter().map(|entry| library.with_terms(entry)).collect();
-    let written = write_models(&with_terms, &paths, format, context, Some(folder))?;
-    for (path, written) in paths.iter().zip(&written) {
-        warn_of_stale(format, path, written, reporter);
-    }
+    let written = write_models(&with_terms, &paths, format, (Some(folder), context), reporter)?;
     let outcome = |(entry, files): (&TextureEntry, Vec<PathBuf>)| ExportOutcome {
         files,
         lost: format.lost(entry),

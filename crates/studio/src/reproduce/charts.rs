@@ -1,12 +1,9 @@
 //! Figures of reproductions.
 
-use shagreen_formats::figure::{Chart, Figure, Mark, Point, Scale, Series, Table, Tone};
+use shagreen_formats::figure::{Chart, Figure, Mark, Point, Scale, Series, Table, Tone, compared_line};
 use shagreen_formats::prediction_report::{Prediction, PredictionFigure, prediction_figure};
 
 use crate::method_predictions::MethodPredictions;
-
-/// Tones of lines that are compared, in order.
-pub(super) const TONES: [Tone; 4] = [Tone::Main, Tone::Second, Tone::Third, Tone::Fourth];
 
 /// A series of points.
 pub(super) fn series(name: impl Into<String>, mark: Mark, tone: Tone, points: Vec<Point>) -> Series {
@@ -21,6 +18,16 @@ pub(super) fn line(
 ) -> Series {
     let finite = points.into_iter().filter(|(x, y)| x.is_finite() && y.is_finite());
     series(name, Mark::Line, tone, finite.map(|(x, y)| Point::new(x, y)).collect())
+}
+
+/// As [`line`], for the line with this index among lines that are compared.
+pub(super) fn compared(
+    name: impl Into<String>,
+    index: usize,
+    points: impl IntoIterator<Item = (f64, f64)>,
+) -> Series {
+    let (mark, tone) = compared_line(index);
+    Series { mark, ..line(name, tone, points) }
 }
 
 /// A chart that fits its points. `source` is what the numbers come from.

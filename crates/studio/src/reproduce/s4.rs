@@ -12,7 +12,7 @@ use shagreen_core::signals::spatial_spectrogram::{
 };
 use shagreen_formats::figure::{Mark, Point, Scale, Tone};
 
-use crate::reproduce::charts::{TONES, chart, line, series};
+use crate::reproduce::charts::{chart, compared, line, series};
 use crate::reproduce::s4::spectrogram_map::{Shown, spectrogram_map};
 use crate::reproduce::simulated::{simulated_answers, simulated_participants};
 use crate::reproduce::work::Work;
@@ -71,7 +71,7 @@ fn figure_2(work: &mut Work<'_>) -> anyhow::Result<()> {
         }
         let staircases = tracks(part, &records).into_iter().enumerate().map(|(index, track)| {
             let levels = (1_u32..).map(f64::from).zip(track.answers.iter().map(|(level_mm, _)| *level_mm));
-            line(track.participant.clone(), TONES[index % TONES.len()], levels)
+            compared(track.participant.clone(), index, levels)
         });
         item.figures.push((
             part.id.clone(),
@@ -99,7 +99,7 @@ fn figure_3(work: &mut Work<'_>, profiles: &[(PaperTexture, Vec<f64>)]) {
     let last = profiles.len() - 1;
     let lines = profiles.iter().enumerate().map(|(index, (texture, profile))| {
         let offset = 1.2 * (last - index) as f64;
-        line(texture.name(), TONES[index % TONES.len()], points(profile, offset))
+        compared(texture.name(), index, points(profile, offset))
     });
     item.figures.push((
         "textures".to_owned(),
@@ -120,7 +120,7 @@ fn figure_4(work: &mut Work<'_>) -> anyhow::Result<()> {
     let mut item = work.item("figure-4", source);
     item.commands.push("shagreen spatial analyse B.csv --window 20 --window 2".to_owned());
     let profile = PaperTexture::B.profile(N_SAMPLES);
-    let mut lines = vec![line("texture B", TONES[0], points(&profile, 0.0))];
+    let mut lines = vec![line("texture B", Tone::Main, points(&profile, 0.0))];
     for (window_m, tone) in SHOWN_WINDOWS_M.into_iter().zip([Tone::Second, Tone::Third]) {
         let transform = Transform::new(framing(window_m));
         let spectrogram = SpatialSpectrogram::of(&profile, &transform)?;
@@ -183,7 +183,7 @@ fn figure_5(work: &mut Work<'_>, profiles: &[(PaperTexture, Vec<f64>)]) -> anyho
     let mut all = Vec::with_capacity(profiles.len() + 1);
     for (index, ((texture, _), of)) in profiles.iter().zip(&found).enumerate() {
         let points = of.iter().map(|of| (1e3 * of.window_m, of.envelope_correlation));
-        all.push(line(texture.name(), TONES[index % TONES.len()], points));
+        all.push(compared(texture.name(), index, points));
     }
     let means = (0..PAPER_WINDOWS_M.len()).map(|index| {
         let of_textures: Vec<f64> = of_window(index).collect();

@@ -1,5 +1,5 @@
 extern crate std;
-use super::{Friction, HIGHEST_SPEED_MPS, MAX_MPS2, MAX_STATIC_RATIO, StickSlip};
+use super::{Friction, HIGHEST_SPEED_MPS, MAX_MPS2, MAX_STATIC_RATIO, StickSlip, Tip};
 use crate::contact::Contact;
 use std::vec;
 use std::vec::Vec;
@@ -71,6 +71,56 @@ fn the_vibration_does_not_depend_on_the_sample_rate() {
         let ratio = felt(rate_hz) / expected;
         assert!((0.93..1.07).contains(&ratio), "{ratio} at {rate_hz} Hz");
     }
+}
+
+#[test]
+fn the_vibration_is_that_of_far_finer_steps() {
+    // Acceleration in m/s², and slips in two seconds, of a tip that slides for two seconds before.
+    let felt = |friction: Friction, contact: Contact, finer: u32| {
+        let (rate_hz, kinetic_n) = (1000.0, friction.kinetic * contact.force_n);
+        let n_steps = finer * StickSlip::new(rate_hz).n_steps(kinetic_n);
+        let mut tip = Tip::sliding(friction, contact.speed_mps, kinetic_n);
+        let mut next = |_| {
+            let before_mps = tip.velocity_mps;
+            tip.advance(friction, contact.speed_mps, n_steps, 1.0 / (rate_hz * n_steps as f32));
+            rate_hz * (tip.velocity_mps - before_mps)
+        };
+        let samples = (0..4000).map(&mut next).collect::<Vec<f32>>().split_off(2000);
+        let felt_mps2 = rms(&samples);
+        let (mut n_slips, mut is_pulled) = (0_u32, false);
+        for mps2 in samples {
+            if is_pulled && mps2 < -0.5 * felt_mps2 {
+                (n_slips, is_pulled) = (n_slips + 1, false);
+            } else if mps2 > 0.5 * felt_mps2 {
+                is_pulled = true;
+            }
+        }
+        (felt_mps2, n_slips)
+    };
+    let parameters = [(0.8, 1.3, 0.02), (0.4, 1.25, 0.02), (1.5, 1.5, 0.02), (0.8, 2.0, 0.005)];
+    let contacts = [(0.01, 0.5), (0.01, 1.0), (0.02, 1.0), (0.02, 2.0), (0.05, 1.0), (0.05, 10.0)];
+    let mut n_vibrating = 0;
+    for (kinetic, static_ratio, stribeck_speed_mps) in parameters {
+        let friction = Friction { kinetic, static_ratio, stribeck_speed_mps };
+        for (speed_mps, force_n) in contacts {
+            let contact = contact(speed_mps, force_n);
+            let (coarse, fine) = (felt(friction, contact, 1), felt(friction, contact, 8));
+            let case = std::format!("{friction:?} {contact:?}: {coarse:?}, finer {fine:?}");
+            assert!((coarse.0 - fine.0).abs() < 0.02 + 0.04 * fine.0, "{case}");
+            if fine.0 > 0.1 {
+                assert!(coarse.1.abs_diff(fine.1) <= 1 + fine.1 / 20, "{case}");
+                n_vibrating += 1;
+            }
+        }
+    }
+    assert!(n_vibrating >= 10, "{n_vibrating}");
+}
+
+#[test]
+fn a_stronger_friction_takes_more_steps() {
+    let n_steps = |rate_hz: f32, kinetic_n: f32| StickSlip::new(rate_hz).n_steps(kinetic_n);
+    assert_eq!([0.0, 1.25, 5.0, 20.0].map(|kinetic_n| n_steps(1000.0, kinetic_n)), [4, 4, 8, 16]);
+    assert_eq!([200.0, 3200.0, 4000.0].map(|rate_hz| n_steps(rate_hz, 20.0)), [80, 5, 4]);
 }
 
 #[test]

@@ -3,15 +3,15 @@
 use std::sync::Arc;
 
 use shagreen_core::space::authoring::{Authored, Voice};
-use shagreen_core::texture::height_map::HeightMap;
-use shagreen_core::texture::plane::{Plane, Prepared};
+use shagreen_core::texture::TextureModel;
+use shagreen_core::texture::plane::Plane;
 use shagreen_core::texture::shape::Shape;
 use shagreen_formats::library::TextureEntry;
 use shagreen_studio::authoring::shaped_plane_at;
 use shagreen_studio::report::Warnings;
 
 use super::super::loaded_textures::Textures;
-use super::{Made, numbered, plane_of};
+use super::{Made, ReadyPlane, plane_of};
 
 /// Maximum number of textures that are kept: those of some neighboring triangles.
 const MOST: usize = 12;
@@ -24,7 +24,7 @@ pub(in crate::session) struct ShapedTextures {
     textures: Vec<ShapedTexture>,
 }
 
-/// Library texture with a height map that is not there in a shape yet. Preparing it takes so long that a worker does it.
+/// Library texture that is not there in a shape yet, for a worker that makes it.
 pub(in crate::session) struct Unshaped {
     texture: usize,
     entry: TextureEntry,
@@ -38,8 +38,13 @@ pub(in crate::session) struct Shaped {
     texture: usize,
     unshaped: Arc<Plane>,
     shape: Shape,
-    plane: Arc<Plane>,
-    prepared: Arc<Prepared>,
+    ready: ReadyPlane,
+}
+
+/// Whether the height map of a texture must be prepared in a shape, which takes so long that a worker does it. A prepared map
+/// stays so unless it is stretched.
+pub(in crate::session) fn needs_preparation(model: &TextureModel, shape: &Shape) -> bool {
+    model.height_map().is_some_and(|map| shape.grain != 1.0 || !map.is_prepared())
 }
 
 impl Unshaped {
@@ -47,8 +52,7 @@ impl Unshaped {
     pub(in crate::session) fn shaped(self) -> Option<Shaped> {
         let Self { texture, entry, plane: unshaped, shape } = self;
         let plane = shaped_plane_at(&entry, &shape, unshaped.rate(), &Warnings::default()).ok()?;
-        let prepared = Arc::new(plane.prepare());
-        Some(Shaped { texture, unshaped, shape, plane: Arc::new(plane), prepared })
+        Some(Shaped { texture, unshaped, shape, ready: ReadyPlane::new(Arc::new(plane)) })
     }
 }
 
@@ -79,7 +83,7 @@ impl ShapedTextures {
             return Ok((Arc::clone(&kept.plane), kept.made.clone()));
         }
         let plane = plane_of(Voice::Texture(texture), shape, &textures.library, &textures.planes)?;
-        let (plane, made) = numbered(plane, n_made);
+        let (plane, made) = ReadyPlane::new(plane).numbered(n_made);
         self.keep(ShapedTexture {
             texture,
             unshaped: Arc::clone(unshaped),
@@ -89,8 +93,14 @@ impl ShapedTextures {
         Ok((plane, made))
     }
 
-    /// Textures of the library among the voices of `authored` whose height maps must be prepared in its shape.
-    pub(in crate::session) fn missing(&self, authored: &Authored, textures: &Textures) -> Vec<Unshaped> {
+    /// Textures of the library among the voices of `authored` that are not there in its shape, of those for which `is_asked`
+    /// holds with their models and the shape.
+    pub(in crate::session) fn missing(
+        &self,
+        authored: &Authored,
+        textures: &Textures,
+        is_asked: impl Fn(&TextureModel, &Shape) -> bool,
+    ) -> Vec<Unshaped> {
         let shape = authored.shape;
         if shape.is_neutral() {
             return Vec::new();
@@ -99,9 +109,7 @@ impl ShapedTextures {
             let Voice::Texture(texture) = voice else { return None };
             let (entry, unshaped) = (&textures.library.textures[texture], &textures.planes[texture]);
             let is_there = self.shape == shape && self.find(texture, unshaped).is_some();
-            // A prepared map stays so unless it is stretched.
-            let is_slow = |map: &Arc<HeightMap>| shape.grain != 1.0 || !map.is_prepared();
-            (!is_there && entry.model.height_map().is_some_and(is_slow)).then(|| Unshaped {
+            (!is_there && is_asked(&entry.model, &shape)).then(|| Unshaped {
                 texture,
                 entry: entry.clone(),
                 plane: Arc::clone(unshaped),
@@ -113,11 +121,10 @@ impl ShapedTextures {
 
     /// Keeps a texture that a worker has made, under the next number after `n_made`.
     pub(in crate::session) fn take(&mut self, shaped: Shaped, n_made: &mut u64) {
-        let Shaped { texture, unshaped, shape, plane, prepared } = shaped;
+        let Shaped { texture, unshaped, shape, ready } = shaped;
         self.follow(&shape);
         if self.find(texture, &unshaped).is_none() {
-            *n_made += 1;
-            let made = Made { number: *n_made, prepared };
+            let (plane, made) = ready.numbered(n_made);
             self.keep(ShapedTexture { texture, unshaped, plane, made });
         }
     }

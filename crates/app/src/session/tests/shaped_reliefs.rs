@@ -43,9 +43,9 @@ fn sides_m(session: &Session) -> Vec<f64> {
 }
 
 /// Follows a project until what it plays is prepared.
-fn follow_until_prepared(session: &mut Session, project: &Project) {
+pub(super) fn follow_until_prepared(session: &mut Session, project: &Project) {
     let (ctx, begun) = (egui::Context::default(), Instant::now());
-    while session.authored.height_maps.is_busy() {
+    while session.authored.audible.is_behind() {
         assert!(begun.elapsed() < Duration::from_mins(1), "it is prepared");
         session.follow(project, None, &ctx);
         std::thread::sleep(Duration::from_millis(1));
@@ -64,7 +64,7 @@ fn a_relief_of_the_library_is_stretched_by_the_worker() {
     for grain in [2.0, 2.5] {
         let shaped = edited(&plain, Edit::SetShape(ShapeControl::Grain, grain));
         session.follow(&shaped, None, &ctx);
-        assert!(session.authored.height_maps.is_busy());
+        assert!(session.authored.audible.is_behind());
         assert_eq!(sides_m(&session), [before], "{grain}");
         follow_until_prepared(&mut session, &shaped);
         before = grain * SIDE_M;
@@ -72,7 +72,7 @@ fn a_relief_of_the_library_is_stretched_by_the_worker() {
         // It is kept while its weight changes.
         let at = SpacePoint::new(43.1, 57.0).unwrap();
         session.follow(&edited(&shaped, Edit::MovePoint(at)), None, &ctx);
-        assert!(!session.authored.height_maps.is_busy());
+        assert!(!session.authored.audible.is_behind());
         session.follow(&shaped, None, &ctx);
     }
 }
@@ -86,7 +86,7 @@ fn a_signal_is_that_of_the_texture_while_its_height_map_is_prepared() {
     follow_until_ready(&mut session, &plain);
     let shaped = edited(&plain, Edit::SetShape(ShapeControl::Grain, 2.0));
     session.follow(&shaped, None, &ctx);
-    assert!(session.authored.height_maps.is_busy());
+    assert!(session.authored.audible.is_behind());
     let Ok(Sounding::Mix(voices, Mode::Shared)) =
         session.signal(&shaped, None, contact).map(|file| file.sounding)
     else {

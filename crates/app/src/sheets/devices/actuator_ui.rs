@@ -5,16 +5,18 @@ use std::sync::mpsc::{Receiver, TryRecvError};
 use anyhow::{Context as _, anyhow};
 use egui::{Button, Checkbox, ComboBox, DragValue, TextEdit, Ui};
 use egui_plot::{GridMark, Line, Plot, PlotPoints};
-use shagreen_core::actuator::Actuator;
+use shagreen_core::actuator::{Actuator, MAX_CHANNEL};
 use shagreen_core::units::{Hertz, Kilograms};
 use shagreen_device::synth::equalizer::Biquad;
 use shagreen_formats::actuator_toml::read_actuator;
+use shagreen_studio::driven_channels::possible_channels;
 
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::browse::Asked;
 use crate::look::list::ShowList as _;
 use crate::look::plot::fixed;
 use crate::look::theme::tokens;
+use crate::session::Session;
 use crate::state::background::in_background;
 use crate::state::rig::{FULL_SCALES_MPS2, FULL_SCALES_VOLTS, Mounted};
 use crate::state::source::Source;
@@ -26,8 +28,12 @@ const HEIGHT: f32 = 110.0;
 const DRAWN_RATE_HZ: f64 = 48_000.0;
 
 impl DevicesSheet {
-    pub(super) fn actuator_ui(&mut self, ui: &mut Ui) {
+    pub(super) fn actuator_ui(&mut self, ui: &mut Ui, session: &Session) {
         heading(ui, strings::ACTUATOR);
+        if session.haptic_reading().is_some() {
+            self.of_haptic_pen_ui(ui);
+            return;
+        }
         row(ui, strings::DEVICE, |ui| self.choice_ui(ui));
         row(ui, strings::PROFILE_PATH, |ui| self.file_ui(ui));
         self.browse.missing_ui(ui);
@@ -81,6 +87,18 @@ impl DevicesSheet {
             warning(ui, &text.to_string());
         }
         note(ui, &actuator.source);
+    }
+
+    /// Draws the section for a haptic pen: an actuator that was chosen for another output can be left out.
+    fn of_haptic_pen_ui(&mut self, ui: &mut Ui) {
+        note(ui, strings::NO_ACTUATOR_ON_PEN);
+        let is_chosen = self.rig.mounted.is_some() || self.rig.missing.is_some();
+        if is_chosen && ui.button(strings::LEAVE_ACTUATOR_OUT).clicked() {
+            self.take(None, None);
+        }
+        if self.rig.actuator().is_none_or(Actuator::is_proportional) {
+            self.full_scale_ui(ui);
+        }
     }
 
     fn full_scale_ui(&mut self, ui: &mut Ui) {
@@ -165,6 +183,8 @@ impl DevicesSheet {
                     self.load_g = mounted.as_ref().and_then(Mounted::load).map(Kilograms::g);
                 }
                 (self.rig.mounted, self.rig.missing, self.message) = (mounted, None, None);
+                let possible = possible_channels(self.rig.actuator(), usize::from(MAX_CHANNEL));
+                self.rig.channel = self.rig.channel.filter(|channel_idx| possible.contains(channel_idx));
             }
             Err(error) => self.message = Some(error.to_string()),
         }

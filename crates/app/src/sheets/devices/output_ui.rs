@@ -2,7 +2,7 @@
 
 use egui::{Button, Color32, ComboBox, DragValue, ProgressBar, Response, Ui};
 use shagreen_device::status::LinkState;
-use shagreen_studio::driven_channels::channel_name;
+use shagreen_studio::driven_channels::{channel_name, possible_channels};
 
 use super::{DevicesSheet, heading, note, row, warning};
 use crate::command::Command;
@@ -41,20 +41,10 @@ impl DevicesSheet {
                 });
             shown.response.accessible_name(strings::BUFFER).on_hover_text(strings::BUFFER_HELP);
         });
-        row(ui, strings::CHANNELS, |ui| {
-            let n_channels = session.stream().map_or(CHANNELS, |(_, channels, _)| usize::from(channels));
-            let all = std::iter::once(None).chain((0..n_channels).map(Some));
-            let choices: Vec<_> =
-                all.map(|channel| (channel, self.channel_label(channel, n_channels))).collect();
-            let chosen = self.channel_label(self.rig.channel, n_channels);
-            let combo = ComboBox::from_id_salt("channels").width(210.0).truncate().selected_text(chosen);
-            let shown = combo.show_list(ui, |ui| {
-                for (channel, label) in choices {
-                    ui.selectable_value(&mut self.rig.channel, channel, label);
-                }
-            });
-            shown.response.accessible_name(strings::CHANNELS).on_hover_text(strings::CHANNELS_HELP);
-        });
+        // A haptic pen has no channels.
+        if session.haptic_reading().is_none() {
+            row(ui, strings::CHANNELS, |ui| self.channels_ui(ui, session));
+        }
         if let Some((rate_hz, channels, block_frames)) = session.stream() {
             note(ui, &strings::stream(rate_hz, channels, block_frames));
         }
@@ -73,6 +63,22 @@ impl DevicesSheet {
         meters_ui(ui, session);
         commands.extend(self.tone_ui(ui, session));
         commands
+    }
+
+    /// Draws the choice of the channel: all usual ones, or one that the actuator can be connected to.
+    fn channels_ui(&mut self, ui: &mut Ui, session: &Session) {
+        let n_channels = session.stream().map_or(CHANNELS, |(_, channels, _)| usize::from(channels));
+        let possible = possible_channels(self.rig.actuator(), n_channels);
+        let all = std::iter::once(None).chain(possible.into_iter().map(Some));
+        let choices: Vec<_> = all.map(|channel| (channel, self.channel_label(channel, n_channels))).collect();
+        let chosen = self.channel_label(self.rig.channel, n_channels);
+        let combo = ComboBox::from_id_salt("channels").width(210.0).truncate().selected_text(chosen);
+        let shown = combo.show_list(ui, |ui| {
+            for (channel, label) in choices {
+                ui.selectable_value(&mut self.rig.channel, channel, label);
+            }
+        });
+        shown.response.accessible_name(strings::CHANNELS).on_hover_text(strings::CHANNELS_HELP);
     }
 
     /// Label of the driven channels: the only one with its name if it has one, or with `None` the usual ones.

@@ -13,6 +13,7 @@ use shagreen_studio::export::{
     shared_full_scale_mps2, write_models,
 };
 use shagreen_studio::file::one_line;
+use shagreen_studio::report::Warnings;
 
 use crate::session::authored_sources::AuthoredSources;
 use crate::state::audible_texture::AudibleTexture;
@@ -47,12 +48,19 @@ pub(super) struct Job {
 
 /// Result of an export.
 pub(super) enum Outcome {
-    /// These files were written.
-    Saved(Vec<PathBuf>),
+    /// The files were written.
+    Saved(Saved),
     /// Nothing was written, because these files would be replaced.
     Exists(Vec<PathBuf>),
     /// Why the export failed.
     Failed(String),
+}
+
+/// Written files.
+pub(super) struct Saved {
+    pub(super) paths: Vec<PathBuf>,
+    /// What is not as the user may expect, such as silence.
+    pub(super) warnings: Vec<String>,
 }
 
 /// What the user must know before an export.
@@ -76,7 +84,7 @@ impl Job {
             Ok(_) => {}
         }
         match self.write(&paths) {
-            Ok(()) => Outcome::Saved(paths),
+            Ok(warnings) => Outcome::Saved(Saved { paths, warnings }),
             Err(reason) => Outcome::Failed(reason),
         }
     }
@@ -230,7 +238,8 @@ impl Job {
         })
     }
 
-    fn write(&self, paths: &[PathBuf]) -> Result<(), String> {
+    /// Writes the files and returns the warnings; those of one of several signals name it.
+    fn write(&self, paths: &[PathBuf]) -> Result<Vec<String>, String> {
         match &self.format {
             Format::Signal(format, options) => {
                 let signals = self.signals()?;
@@ -241,17 +250,25 @@ impl Job {
                     };
                     std::fs::create_dir_all(folder).map_err(no_folder)?;
                 }
+                let mut warnings = Vec::new();
                 for (signal, path) in signals.iter().zip(paths) {
-                    signal.write(*format, path, options, scale_mps2)?;
+                    let of_file = signal.write(*format, path, options, scale_mps2)?;
+                    let name = signal.sidecar.name.as_ref().filter(|_| matches!(self.what, What::All(_)));
+                    warnings.extend(of_file.into_iter().map(|warning| match name {
+                        Some(name) => strings::of_texture(name, &warning),
+                        None => warning,
+                    }));
                 }
+                Ok(warnings)
             }
             Format::Model(format) => {
-                let context = ExportContext::new(CREATED_BY);
-                let written = write_models(&self.entries()?, paths, *format, &context, self.folder());
+                let (context, warnings) = (ExportContext::new(CREATED_BY), Warnings::default());
+                let to = (self.folder(), &context);
+                let written = write_models(&self.entries()?, paths, *format, to, &warnings);
                 written.map_err(|error| one_line(&error))?;
+                Ok(warnings.into_vec())
             }
         }
-        Ok(())
     }
 
     /// Folder of several files, which is created if it does not exist.
@@ -284,53 +301,4 @@ fn add(list: &mut Vec<String>, texts: impl IntoIterator<Item = String>) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::{AudibleTexture, Format, Job, Outcome, What};
-    use shagreen_core::texture::height_map::{HeightMap, HeightMapOptions};
-    use shagreen_formats::starter::starter_library;
-    use shagreen_studio::export::{FORMATS, model_paths};
-    use std::path::Path;
-    use std::sync::Arc;
-
-    #[test]
-    fn a_file_is_replaced_by_its_like_only_and_only_when_that_was_said() {
-        let folder = tempfile::tempdir().unwrap();
-        let mut entry = starter_library().unwrap().textures.swap_remove(0);
-        // Formats of maps need heights.
-        let heights_m = (0..256).map(|index| 1e-6 * f64::from(index % 3)).collect();
-        let map = HeightMap::new(heights_m, 0.008, HeightMapOptions::HARD_PLASTIC).unwrap();
-        entry.model = entry.model.with_height_map(Some(Arc::new(map)));
-        let texture = entry.clone();
-        let audible = Arc::new(AudibleTexture {
-            name: entry.name.clone(),
-            signal: Err("no signal".to_owned()),
-            entry: Ok(entry),
-            has_path: true,
-        });
-        for format in FORMATS {
-            let path = folder.path().join("mine").with_extension(format.ending());
-            let job = |path: &Path| Job {
-                what: What::Audible(Arc::clone(&audible)),
-                format: Format::Model(format),
-                path: path.to_owned(),
-            };
-            assert!(matches!(job(&path).run(false), Outcome::Saved(paths) if paths == [path.clone()]));
-            assert!(matches!(job(&path).run(false), Outcome::Exists(paths) if paths == [path.clone()]));
-            assert!(matches!(job(&path).run(true), Outcome::Saved(_)));
-            let mut lost = vec![super::strings::PATH_LOST.to_owned()];
-            lost.extend(format.lost(&texture));
-            assert_eq!(job(&path).summary().unwrap().lost, lost);
-            std::fs::write(&path, "my notes").unwrap();
-            for replaces in [false, true] {
-                assert!(matches!(job(&path).run(replaces), Outcome::Failed(_)), "{replaces}");
-                assert!(matches!(job(folder.path()).run(replaces), Outcome::Failed(_)), "{replaces}");
-            }
-            assert_eq!(std::fs::read(&path).unwrap(), b"my notes");
-            // Files of a format with several are not taken for own ones without the first of them.
-            std::fs::remove_file(&path).unwrap();
-            let beside: Vec<_> = model_paths(format, &path).into_iter().skip(1).collect();
-            assert_eq!(matches!(job(&path).run(true), Outcome::Failed(_)), !beside.is_empty());
-            beside.iter().chain([&path]).for_each(|path| drop(std::fs::remove_file(path)));
-        }
-    }
-}
+mod tests;

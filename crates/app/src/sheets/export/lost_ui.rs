@@ -1,4 +1,4 @@
-//! What the files of an export cannot store, computed in the background.
+//! What the files of an export cannot store, computed in the background, and warnings about written files.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use shagreen_studio::export::FormatInfo;
 
 use crate::look::theme::{GAP, Tokens};
 use crate::panel::Panel;
-use crate::sheets::export::{ExportSheet, height_of};
+use crate::sheets::export::{ExportSheet, State, height_of};
 use crate::state::background::JobPanicked;
 use crate::state::signal_file::SignalOptions;
 use crate::strings::{export as strings, import};
@@ -29,14 +29,20 @@ pub(super) struct Choice {
 
 impl ExportSheet {
     /// Draws what the files cannot store, and a warning about textures that must not be redistributed, in a fixed height:
-    /// the list comes later and has any length, and nothing else must move then.
+    /// the list comes later and has any length, and nothing else must move then. Warnings about written files come first.
     pub(super) fn lost_ui(&self, ui: &mut Ui, t: &Tokens) {
         let height = height_of(ui, LOST_LINES);
-        let area = ScrollArea::vertical().id_salt("lost").max_height(height).min_scrolled_height(height);
+        let warnings: &[String] = if let State::Saved(saved) = &self.state { &saved.warnings } else { &[] };
+        // Another area with warnings, so that its top is visible even if the list was scrolled.
+        let area = ScrollArea::vertical().id_salt(("lost", warnings.is_empty()));
+        let area = area.max_height(height).min_scrolled_height(height);
         area.auto_shrink(false).show(ui, |ui| {
             // Leaves room for the scroll bar.
             ui.set_max_width(ui.available_width() - 2.0 * GAP);
             let label = |text: &str, color| Label::new(RichText::new(text).color(color)).wrap();
+            for warning in warnings {
+                ui.add(label(&strings::warning(warning), t.warning));
+            }
             match &self.summary {
                 None => {
                     ui.add(label(strings::CHECKING, t.text_weak));

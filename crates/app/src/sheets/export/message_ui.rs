@@ -8,6 +8,7 @@ use shagreen_studio::export;
 
 use crate::look::theme::{Tokens, tokens};
 use crate::panel::Panel;
+use crate::sheets::export::job::Saved;
 use crate::sheets::export::{ExportSheet, State, height_of};
 use crate::sheets::path_field::completed;
 use crate::state::signal_file::Sounding;
@@ -38,7 +39,7 @@ impl ExportSheet {
             State::Asking => (self.to_save(panel), t.text_weak),
             State::Exists(paths) => (strings::exists(&listed(&names_of(paths)), paths.len()), t.warning),
             State::Saving(..) => (import::SAVING.to_owned(), t.text_weak),
-            State::Saved(paths) => {
+            State::Saved(Saved { paths, .. }) => {
                 let shown = |path: Option<&Path>| path.unwrap_or(Path::new("")).display().to_string();
                 let first = paths.first().map(PathBuf::as_path);
                 let text = if self.is_all {

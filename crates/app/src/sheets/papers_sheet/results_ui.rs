@@ -44,6 +44,7 @@ fn item_ui(ui: &mut Ui, item: &ReproducedItem) {
                 });
                 ui.add(Label::new(row.printed_text()));
                 ui.add(Label::new(row.ours_text()));
+                ui.add(Label::new(row.tolerance_text()));
                 ui.add(Label::new(RichText::new(row.remarks()).color(t.text_weak)).wrap());
                 ui.end_row();
             }

@@ -92,8 +92,9 @@ fn start_ui(ui: &mut Ui, page: &mut StudiesPage) -> Option<Command> {
     }
     let can_start = page.open.is_some() && page.problems.is_empty();
     let button = primary_button(t, RichText::new(strings::START).strong(), can_start);
-    let button = button.min_size(vec2(ui.available_width(), MAIN_HEIGHT));
-    if ui.add_enabled(can_start, button).on_hover_text(strings::START_HELP).clicked() {
+    let size = vec2(ui.available_width(), MAIN_HEIGHT);
+    let button = ui.add_enabled_ui(can_start, |ui| ui.add_sized(size, button)).inner;
+    if button.on_hover_text(strings::START_HELP).clicked() {
         return page.confirmed(SessionStart::Next);
     }
     let has_practice =

@@ -1,6 +1,6 @@
 //! Buttons of the stimuli with their blind labels, and what plays.
 
-use egui::{Button, Label, RichText, Ui, vec2};
+use egui::{Atom, Button, Label, RichText, Ui, vec2};
 
 use super::actions::{Action, Asked};
 use super::presenter::Presenter;
@@ -38,14 +38,19 @@ pub(super) fn stimuli_ui(ui: &mut Ui, state: &TrialState) -> Asked {
     asked
 }
 
+/// A button of at least the size of a target, with its text in the middle.
+pub(super) fn target_button(is_selected: bool, text: RichText) -> Button<'static> {
+    let button = Button::selectable(is_selected, (Atom::grow(), text, Atom::grow())).gap(0.0);
+    button.frame_when_inactive(true).min_size(vec2(TARGET, TARGET))
+}
+
 /// Draws the button of a stimulus, which starts and stops it.
 pub(super) fn stimulus_button(ui: &mut Ui, state: &TrialState, index: usize) -> Asked {
     let mut asked = Asked::default();
     let Some(shown) = state.shown.get(index) else { return asked };
     let is_playing = state.presenter.playing() == Some(index);
     let text = RichText::new(&shown.label).strong();
-    let button =
-        Button::selectable(is_playing, text).frame_when_inactive(true).min_size(vec2(TARGET, TARGET));
+    let button = target_button(is_playing, text);
     let is_usable = is_playing || state.presenter.can_start(index, state.now_secs());
     let button = ui.add_enabled(is_usable, button);
     let button = button.accessible_name(strings::play(&shown.label));

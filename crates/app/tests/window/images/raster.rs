@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 
 use egui::epaint::{ImageData, Mesh, Primitive, Vertex};
-use egui::{Color32, Context, FullOutput, Rect, TextureId, TexturesDelta};
+use egui::{Color32, Context, FullOutput, Rect, TextureId, TextureWrapMode, TexturesDelta};
 use egui_kittest::TestRenderer;
 use image::{Rgba, RgbaImage};
 
@@ -18,15 +18,15 @@ pub(crate) struct Raster {
 struct Texture {
     size: [usize; 2],
     pixels: Vec<Color32>,
+    wrap: TextureWrapMode,
 }
 
 impl Texture {
-    /// Bilinearly interpolated color at texture coordinates from 0 to 1.
+    /// Bilinearly interpolated color at texture coordinates, of which 0 to 1 is the whole texture.
     fn at(&self, u: f32, v: f32) -> [f32; 4] {
         let axis = |share: f32, n: usize| {
-            let x = (share * n as f32 - 0.5).clamp(0.0, (n - 1) as f32);
-            let first = x as usize;
-            (first, (first + 1).min(n - 1), x - first as f32)
+            let x = share * n as f32 - 0.5;
+            (self.wrapped(x.floor() as isize, n), self.wrapped(x.floor() as isize + 1, n), x - x.floor())
         };
         let ((left, right, across), (top, bottom, down)) = (axis(u, self.size[0]), axis(v, self.size[1]));
         let pixel = |x: usize, y: usize| self.pixels[y * self.size[0] + x].to_array().map(f32::from);
@@ -35,6 +35,20 @@ impl Texture {
         let upper = mix(pixel(left, top), pixel(right, top), across);
         let lower = mix(pixel(left, bottom), pixel(right, bottom), across);
         mix(upper, lower, down)
+    }
+
+    /// The pixel that is shown at an index outside a row of `n` pixels, too.
+    fn wrapped(&self, index: isize, n: usize) -> usize {
+        let n = n.cast_signed();
+        let index = match self.wrap {
+            TextureWrapMode::ClampToEdge => index.clamp(0, n - 1),
+            TextureWrapMode::Repeat => index.rem_euclid(n),
+            TextureWrapMode::MirroredRepeat => {
+                let index = index.rem_euclid(2 * n);
+                index.min(2 * n - 1 - index)
+            }
+        };
+        index.cast_unsigned()
     }
 }
 
@@ -45,7 +59,11 @@ impl TestRenderer for Raster {
                 let ImageData::Color(image) = change.image;
                 match change.pos {
                     None => {
-                        let texture = Texture { size: image.size, pixels: image.pixels.clone() };
+                        let texture = Texture {
+                            size: image.size,
+                            pixels: image.pixels.clone(),
+                            wrap: change.options.wrap_mode,
+                        };
                         self.textures.insert(id, texture);
                     }
                     Some([left, top]) => {

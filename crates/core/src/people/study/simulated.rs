@@ -4,6 +4,8 @@
 //! answers. They are named `simulated-01` and so on. Their perception is a model with chosen numbers: a position in a
 //! [`World`], noise, habits on each scale, a threshold, and lapses, in which they guess.
 
+mod anchors;
+mod ends;
 mod observers;
 mod participant;
 mod world;

@@ -106,6 +106,11 @@ impl<'a> Surface<'a> {
         [speed_mps / self.speed_max_mps, force_n / self.force_max_n]
     }
 
+    /// Exponents of speed and force in the power law of the levels of all segments.
+    pub(super) fn exponents(&self) -> [f64; 2] {
+        self.trend.exponents
+    }
+
     /// Mean square that the power law of all segments predicts for a segment, with an arbitrary unit.
     pub(super) fn usual_mean_square(&self, piece: &Piece) -> f64 {
         self.trend.mean_square(piece.speed_mps, piece.force_n)

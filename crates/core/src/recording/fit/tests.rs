@@ -91,6 +91,21 @@ fn strokes_of_any_rate_give_back_their_texture() {
     check(800.0, 800.0);
 }
 
+/// A gain that is changed halfway is said, with its place; strokes at changing speeds and forces alone are not.
+#[test]
+fn a_jump_of_the_level_is_said() {
+    let notes = |gain: f64| {
+        let mut recording = strokes(1000.0, 15.0, 3);
+        for x in &mut recording.acceleration_mps2[5000..] {
+            *x = 9.81 + gain * (*x - 9.81);
+        }
+        fit(&[recording], &FitOptions::usual()).unwrap().report.notes.join(" ")
+    };
+    let said = notes(6.0);
+    assert!(said.contains("The level rises by 1") && said.contains(" dB near 5."), "{said}");
+    assert!(!notes(1.0).contains("The level"), "{}", notes(1.0));
+}
+
 #[test]
 fn the_band_decides_the_rate() {
     let mut wide = strokes(8000.0, 6.0, 1);

@@ -9,6 +9,7 @@ use shagreen_formats::wav;
 
 use super::{MadeSound, TargetWorker};
 use crate::batch::LoadedStroke;
+use crate::batch::rates::whole_rate_hz;
 use crate::export::{
     FilePart, Rendered, SignalFormat, SignalSamples, StrokeSignal, lost_of_tap, shared_full_scale_mps2,
 };
@@ -140,13 +141,4 @@ fn prepared_sound(library: &Library, sound: &Sound, reporter: &Warnings) -> anyh
     }
     let planes = sound.planes(library, reporter)?;
     Ok(PreparedSound::Mixture(planes.iter().map(|(plane, weight)| (plane.prepare(), *weight)).collect()))
-}
-
-/// Returns a rate as a whole number, as files need it.
-fn whole_rate_hz(rate: Hertz) -> anyhow::Result<u32> {
-    if rate.0.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&rate.0) {
-        Ok(rate.0 as u32)
-    } else {
-        bail!("the model's rate of {rate} is not a whole number; state `rate_hz` of the output")
-    }
 }

@@ -9,7 +9,7 @@ use shagreen_formats::figure::{Figure, Scale};
 use shagreen_formats::library::{Library, id_from_name};
 
 use crate::render::{SampleFormat, render_mixture};
-use crate::reproduce::charts::{TONES, chart, line};
+use crate::reproduce::charts::{chart, compared};
 use crate::reproduce::s0::Authored;
 use crate::reproduce::work::Work;
 
@@ -86,7 +86,7 @@ fn figure(of: &Authored, signals: &Signals, source: &str) -> Figure {
     let lines = all.iter().enumerate().map(|(index, (name, signal))| {
         let offset = spacing_mps2 * (last - index) as f64;
         let points = signal[..n].iter().enumerate().map(|(i, x)| (1e3 * i as f64 / of.rate.0, x + offset));
-        line(name.clone(), TONES[index % TONES.len()], points)
+        compared(name.clone(), index, points)
     });
     chart(
         format!("Parents of authored {} over their weighted sum", of.name),

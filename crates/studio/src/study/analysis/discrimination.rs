@@ -46,6 +46,8 @@ fn json_of(of: &Discrimination) -> Value {
     let each: Vec<f64> =
         of.by_participant.iter().filter_map(|(_, counts)| d_prime(*counts, Correction::LogLinear)).collect();
     let over_people = mean_interval(&each, Confidence::NINETY_FIVE);
+    // Equal values do not tell their spread.
+    let bounds = over_people.filter(|of| of.half_width > 0.0).map(|of| of.interval);
     let person = |(name, counts): &(String, Counts)| {
         let mut value = counts_json(*counts);
         value["dprime"] = json!(d_prime(*counts, Correction::LogLinear));
@@ -59,7 +61,7 @@ fn json_of(of: &Discrimination) -> Value {
     value["dprime_differencing"] = json!(models.map(|models| models.differencing));
     value["dprime_independent_observation"] = json!(models.map(|models| models.independent_observation));
     value["mean_dprime"] = json!(over_people.map(|of| of.mean));
-    value["mean_dprime_interval_95"] = json!(over_people.map(|of| interval(of.interval)));
+    value["mean_dprime_interval_95"] = json!(bounds.map(interval));
     value["participants"] = of.by_participant.iter().map(person).collect::<Map<String, Value>>().into();
     value
 }

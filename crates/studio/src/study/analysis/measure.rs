@@ -16,7 +16,7 @@ pub struct Measure {
     pub unit: String,
     /// Values: participants × conditions.
     pub cells: Cells,
-    /// Mean over the participants under each condition, with its 95 % confidence interval.
+    /// Mean over the participants under each condition, with its 95 % confidence interval; without one if all values are equal.
     pub averages: Vec<Average>,
     /// Tests of whether the conditions differ, or why there are none.
     pub comparison: Result<ConditionComparison, String>,
@@ -29,7 +29,8 @@ impl Measure {
     /// Means and tests of these cells.
     pub fn of(name: impl Into<String>, unit: impl Into<String>, cells: Cells) -> Self {
         let comparison = ConditionComparison::of(&cells).map_err(|error| error.to_string());
-        Self { name: name.into(), unit: unit.into(), averages: cells.averages(), cells, comparison }
+        let averages = cells.averages().into_iter().map(with_estimated_interval).collect();
+        Self { name: name.into(), unit: unit.into(), averages, cells, comparison }
     }
 
     /// Whether the conditions differ, in one sentence that begins with the name.
@@ -108,5 +109,16 @@ impl Measure {
             ],
             source: String::new(),
         }
+    }
+}
+
+/// The average, without its interval if this has no width.
+///
+/// Student's t takes the spread of the population from that of the values. If they are all equal, as grades at an end of their
+/// scale often are, an interval of no width would state a certainty that nobody measured.
+fn with_estimated_interval(average: Average) -> Average {
+    match average.half_width {
+        Some(half_width) if half_width > 0.0 => average,
+        _ => Average { standard_error: None, half_width: None, ..average },
     }
 }

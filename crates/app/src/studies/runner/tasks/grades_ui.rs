@@ -1,13 +1,13 @@
 //! Grades on a scale from 1, with the meaning of both ends.
 
-use egui::{Button, Label, RichText, Ui, vec2};
+use egui::{Label, RichText, Ui};
 use shagreen_core::people::study::plan::Design;
 
 use crate::look::theme::{GAP, tokens};
 use crate::strings::studies as strings;
 use crate::studies::runner::actions::{Action, Asked};
 use crate::studies::runner::draft::{Draft, Entry};
-use crate::studies::runner::stimuli_ui::TARGET;
+use crate::studies::runner::stimuli_ui::target_button;
 use crate::studies::runner::trial_state::TrialState;
 
 /// Scale of grades.
@@ -57,8 +57,7 @@ pub(super) fn scale_ui(
         for grade in 1..=scale.n_points {
             let is_chosen = chosen == Some(grade);
             let text = RichText::new(grade.to_string()).strong();
-            let button = Button::selectable(is_chosen, text).frame_when_inactive(true);
-            let button = ui.add(button.min_size(vec2(TARGET, TARGET)));
+            let button = ui.add(target_button(is_chosen, text));
             if button.accessible_name(strings::grade(name, grade)).clicked() {
                 asked.ask(Action::Select(index));
                 asked.ask(Action::Enter(Entry::Grade(index, grade)));

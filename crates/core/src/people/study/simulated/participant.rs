@@ -22,6 +22,8 @@ pub struct SimulatedParticipant<'a> {
 
 /// Distance, in points above the criterion, at which two stimuli are as different as a scale can say.
 const FULL_POINTS: f64 = 50.0;
+/// Largest distance that a guess states, in points.
+const FARTHEST_POINTS: f64 = 100.0;
 /// Proportion of wrong answers at the threshold: `1 - 0.5^(1/4)`, as at the end of a staircase with four down.
 const WRONG_AT_THRESHOLD: f64 = 1.0 - 0.840_896_415_253_714_5;
 /// Median response time, in s, and the standard deviation of its logarithm.
@@ -80,8 +82,7 @@ impl<'a> SimulatedParticipant<'a> {
                 Response::Sliders(asked.scales.iter().map(|scale| self.rating(stimulus, scale)).collect())
             }
             Task::Compare { pair, .. } => {
-                let modulus = MODULUS.0 * self.habits("modulus").log_normal(MODULUS.1);
-                Response::Magnitude(modulus * self.distance(&pair.first, &pair.second))
+                Response::Magnitude(self.modulus() * self.distance(&pair.first, &pair.second))
             }
             Task::Discriminate { pair, is_different, .. } => {
                 let second = if *is_different { &pair.second } else { &pair.first };
@@ -116,8 +117,9 @@ impl<'a> SimulatedParticipant<'a> {
                 Response::Sliders(stimuli.iter().map(score).collect())
             }
             Task::Place { stimulus, low, high } => {
-                let [at, low, high] = [stimulus, low, high].map(|stimulus| self.felt(stimulus));
-                Response::Sliders(vec![100.0 * share_between(&at, &low, &high)])
+                // The anchors can be felt at any time, so that only the stimulus has noise.
+                let at = self.felt(stimulus);
+                Response::Sliders(vec![self.world.position_between(&at, low, high)])
             }
         }
     }
@@ -135,7 +137,9 @@ impl<'a> SimulatedParticipant<'a> {
             Task::Rate { .. } => Response::Sliders(self.anywhere(asked.scales.len())),
             Task::Page { stimuli, .. } => Response::Sliders(self.anywhere(stimuli.len())),
             Task::Place { .. } => Response::Sliders(self.anywhere(1)),
-            Task::Compare { .. } => Response::Magnitude(100.0 * MODULUS.0 * self.random.uniform()),
+            Task::Compare { .. } => {
+                Response::Magnitude(FARTHEST_POINTS * self.modulus() * self.random.uniform())
+            }
             Task::Discriminate { .. } => Response::IsDifferent(self.random.below(2) == 1),
             Task::Detect { .. } | Task::Match { .. } => {
                 Response::Side(Side::second_if(self.random.below(2) == 1))
@@ -181,6 +185,11 @@ impl<'a> SimulatedParticipant<'a> {
     fn distance(&mut self, one: &str, other: &str) -> f64 {
         let (one, other) = (self.felt(one), self.felt(other));
         distance(&one, &other)
+    }
+
+    /// Number that this participant chooses for a distance of one point.
+    fn modulus(&self) -> f64 {
+        MODULUS.0 * self.habits("modulus").log_normal(MODULUS.1)
     }
 
     /// Perceived difference, 0 up to the criterion, 1 from [`FULL_POINTS`] above it.
@@ -246,14 +255,4 @@ fn grade(share: f64, n_points: u32) -> u32 {
 
 fn distance(one: &[f64], other: &[f64]) -> f64 {
     one.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
-}
-
-/// Share of the way from `low` to `high` at which a point is, 0 to 1; 0.5 if the ends coincide.
-fn share_between(at: &[f64], low: &[f64], high: &[f64]) -> f64 {
-    let along = |from: &[f64], to: &[f64]| -> f64 {
-        let steps = low.iter().zip(high).map(|(low, high)| high - low);
-        steps.zip(from.iter().zip(to)).map(|(step, (from, to))| step * (to - from)).sum()
-    };
-    let whole = along(low, high);
-    if whole > 0.0 { (along(low, at) / whole).clamp(0.0, 1.0) } else { 0.5 }
 }

@@ -1,15 +1,20 @@
 use std::sync::Arc;
 
+use statrs::distribution::{ContinuousCDF as _, Normal};
+
 use super::{Observers, SimulatedParticipant, SimulationError, World, simulated_session, simulated_study};
+use crate::maths::hypothesis_tests::intervals::{Confidence, wilson_interval};
 use crate::maths::statistics::{correlation, mean, standard_deviation};
 use crate::people::panel::is_simulated;
+use crate::people::ratings::RelevanceVote;
+use crate::people::study::analysis::relevance::votes;
 use crate::people::study::answer::{Event, Response, check};
-use crate::people::study::plan::{Part, Plan};
+use crate::people::study::plan::{Design, Part, Plan};
 use crate::people::study::progress::replay;
 use crate::people::study::schedule::trials;
-use crate::people::study::test_plans::{all_designs, part, plan_of, rating, staircase};
+use crate::people::study::test_plans::{all_designs, ids, part, plan_of, rating, staircase, textures};
 use crate::people::study::touch::{Felt, n_touched, untouched};
-use crate::people::study::trial::Task;
+use crate::people::study::trial::{Task, Trial};
 
 fn study(plan: &Plan, observers: &Observers, n: usize, seed: u64) -> Vec<super::Record> {
     let world = World::invented(plan, 3);
@@ -126,24 +131,64 @@ fn staircases_find_the_thresholds_of_the_observers() {
     assert!(error < 0.05, "{error}");
 }
 
+/// Numbers that a participant states for the pairs of the part "dissimilarity" of all designs.
+fn magnitudes(observers: Observers, number: usize) -> Vec<f64> {
+    let plan = all_designs();
+    let world = World::invented(&plan, 3);
+    let mut participant = SimulatedParticipant::new(&plan, &world, observers, number, 1).unwrap();
+    let magnitude = |trial: Trial| match participant.respond(&trial) {
+        Response::Magnitude(value) => value,
+        other => panic!("{other:?}"),
+    };
+    trials(&plan, plan.part("dissimilarity").unwrap(), 1).into_iter().map(magnitude).collect()
+}
+
 #[test]
 fn participants_keep_their_own_number_for_a_distance() {
-    let plan = Arc::new(all_designs());
-    let world = World::invented(&plan, 3);
-    let part = plan.part("dissimilarity").unwrap();
-    let observers = Observers::exact();
-    let magnitudes = |number: usize| -> Vec<f64> {
-        let mut participant = SimulatedParticipant::new(&plan, &world, observers, number, 1).unwrap();
-        let answers = trials(&plan, part, 1).into_iter().map(|trial| participant.respond(&trial));
-        answers
-            .map(|response| match response {
-                Response::Magnitude(value) => value,
-                other => panic!("{other:?}"),
-            })
-            .collect()
-    };
-    let (one, other) = (magnitudes(1), magnitudes(2));
+    let [one, other] = [1, 2].map(|number| magnitudes(Observers::exact(), number));
     assert!(one != other && (correlation(&one, &other).unwrap() - 1.0).abs() < 1e-9);
+}
+
+/// Otherwise, one guess of a participant with small numbers would outweigh all other answers.
+#[test]
+fn guesses_of_a_distance_are_on_the_scale_of_the_participant() {
+    for number in 1..=5 {
+        let highest = |lapse_rate: f64| {
+            let observers = Observers { lapse_rate, ..Observers::exact() };
+            magnitudes(observers, number).into_iter().fold(0.0, f64::max)
+        };
+        // The references lie 90 points apart. The highest of 16 guesses of up to 100 points is below 50 once in 65,000 cases.
+        let highest_points = 90.0 * highest(1.0) / highest(0.0);
+        assert!((50.0..=100.0).contains(&highest_points), "participant {number}: {highest_points} points");
+    }
+}
+
+/// Each adjective is a pole of a dimension, and is chosen if the perceived position is on its side.
+#[test]
+fn votes_contain_the_hidden_positions() {
+    const N: usize = 60;
+    let adjectives = ids(&["rough", "smooth", "soft"]);
+    let design = Design::Relevance { stimuli: textures(), adjectives: adjectives.clone() };
+    let plan = plan_of(vec![part("a", design), part("b", rating())]);
+    let (observers, world) = (Observers::usual(), World::invented(&plan, 3));
+    let votes = votes(&plan, &plan.parts[0], &study(&plan, &observers, N, 1));
+    let (mut n_inside, mut n) = (0, 0);
+    for adjective in &adjectives {
+        for texture in textures() {
+            let is_of = |vote: &&RelevanceVote| {
+                vote.adjective == *adjective && vote.texture.as_deref() == Some(texture.as_str())
+            };
+            let n_chosen = votes.iter().filter(is_of).filter(|vote| vote.relevant).count();
+            let noises = (world.value(&texture, adjective) - 50.0) / observers.noise_points;
+            let attentive = Normal::standard().cdf(noises);
+            let expected = (1.0 - observers.lapse_rate) * attentive + 0.5 * observers.lapse_rate;
+            let bounds = wilson_interval(n_chosen as u64, N as u64, Confidence::NINETY_FIVE).unwrap();
+            n_inside += usize::from(bounds.low <= expected && expected <= bounds.high);
+            n += 1;
+        }
+    }
+    // 95 % on average.
+    assert!(n == 15 && n_inside >= 14, "{n_inside} of {n}");
 }
 
 #[test]

@@ -6,6 +6,7 @@ use crate::maths::rng::{Random, derive_seed};
 use crate::people::ratings::AdjectivePair;
 use crate::people::study::plan::{Design, Plan, Source, Stimulus, Variant};
 use crate::people::study::simulated::SimulationError;
+use crate::people::study::simulated::ends::positions_at_ends;
 
 /// Hidden positions of the stimuli of a plan.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,16 +27,21 @@ const MOST_POINTS: f64 = 60.0;
 
 impl World {
     /// World with random positions, the same for the same seed. Versions of a texture lie near it: an authored one 6 points
-    /// away, a coded one the further the lower the bit rate, a reconstructed one the further the wider the window.
+    /// away, a coded one the further the lower the bit rate, a reconstructed one the further the wider the window. Anchors, and
+    /// references of dissimilarities, lie at the ends of a dimension.
     pub fn invented(plan: &Plan, seed: u64) -> Self {
         let dimensions = dimensions_of(plan);
+        let at_ends = positions_at_ends(plan, dimensions.len());
         let place = |stimulus: &Stimulus| {
             let (kind, name) = match &stimulus.source {
                 Source::Texture(name) => ("texture", name),
                 Source::Profile(name) => ("profile", name),
             };
             let mut random = Random::new(derive_seed(seed, &format!("{kind} {name}")));
-            let home: Vec<f64> = dimensions.iter().map(|_| 10.0 + 80.0 * random.uniform()).collect();
+            let home: Vec<f64> = match at_ends.iter().find(|(source, _)| **source == stimulus.source) {
+                Some((_, end)) => end.clone(),
+                None => dimensions.iter().map(|_| 10.0 + 80.0 * random.uniform()).collect(),
+            };
             let offset = match stimulus.variant {
                 Variant::Original => 0.0,
                 Variant::Authored => AUTHORED_POINTS,
