@@ -181,10 +181,10 @@ fn a_silent_export_is_warned_of() {
     let mut harness = author();
     wait_for_field(&mut harness);
     // A tip that rests on the surface.
-    let mut table = "t,x,y,force\n".to_owned();
+    let mut table = "t_s,x_mm,y_mm,force_n\n".to_owned();
     table.extend((0..50).map(|i| format!("{:.2},0,0,1\n", 0.01 * f64::from(i))));
     drop_files(&mut harness, &[("still.csv", table.as_bytes())]);
-    wait(&mut harness, "it is read", |h| window(h).session().stroke().is_some());
+    wait(&mut harness, "it is read", |h| window(h).session().n_strokes() == 1);
     menu(&mut harness, export::EXPORT);
     harness.run_steps(4);
     choose(&mut harness, signal::MOTION, signal::motion(true));
