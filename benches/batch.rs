@@ -56,7 +56,7 @@ fn planned(contact: Contact) -> BatchPlan {
         strokes: vec![LoadedStroke::Steady { contact, seconds: SECS }],
         actuators: vec![None],
     };
-    plan(manifest, sources, "bench", &Warnings::default()).expect("a batch")
+    plan(manifest, sources, (Vec::new(), "bench"), &Warnings::default()).expect("a batch")
 }
 
 fn main() {

@@ -17,7 +17,7 @@ use shagreen_formats::built_in::BuiltIn;
 use shagreen_formats::library::{Library, Provenance};
 use shagreen_formats::project::sha256_hex;
 use shagreen_studio::batch::{
-    BatchOptions, BatchOutcome, BatchProject, BatchSources, JobOutcome, LoadedStroke, plan_with_problems,
+    BatchOptions, BatchOutcome, BatchProject, BatchSources, JobOutcome, LoadedStroke, add_problem, plan,
 };
 use shagreen_studio::file::{self, file_name, folder_of, one_line};
 use shagreen_studio::library;
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let strokes = strokes(&manifest, &folder, &mut problems);
     let actuators = actuators(&manifest, &folder, &mut problems);
     let sources = BatchSources { library, project, strokes, actuators };
-    let plan = plan_with_problems(manifest, sources, (problems, output::CREATED_BY), &Printed)
+    let plan = plan(manifest, sources, (problems, output::CREATED_BY), &Printed)
         .map_err(|problems| batch_problems(&String::from_utf8_lossy(&bytes), problems))
         .with_context(|| file::in_file(&args.manifest))?;
     let apart = plan.scaled_apart();
@@ -100,13 +100,6 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
             "{n} of {} failed; the others are done. Correct what the list above says and run the command again",
             counted(outcome.n_jobs, "job")
         ),
-    }
-}
-
-/// Adds a problem, unless one of the same key is known, of which this one could be a consequence.
-fn add_problem(problems: &mut Vec<(String, String)>, key: String, text: String) {
-    if !problems.iter().any(|(known, _)| *known == key) {
-        problems.push((key, text));
     }
 }
 

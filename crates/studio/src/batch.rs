@@ -27,7 +27,7 @@ use shagreen_formats::project::Project;
 
 use crate::export::{ExportFormat, SignalFormat};
 
-pub use self::choices::{plan, plan_with_problems};
+pub use self::choices::{add_problem, plan};
 pub use self::folder::MARK;
 pub use self::motion::LoadedStroke;
 pub use self::outcome::{BatchOptions, BatchOutcome, JobOutcome, JobState};

@@ -117,8 +117,8 @@ pub enum HapticClipError {
     },
 }
 
-/// Returns the broken rules. Of the values of a point, only the first fault is one. Numbers are compared in 32 bits, as players hold them: editors write ends of
-/// envelopes, and sums such as 0.7 + 0.3, with different rounding.
+/// Returns the broken rules; of the values of a point, the first one. Numbers are compared in 32 bits, as players hold them:
+/// editors write ends of envelopes, and sums such as 0.7 + 0.3, with different rounding.
 pub(super) fn check(clip: &HapticClip, rules: ClipRules) -> FirstFaults<HapticClipError> {
     let mut faults = FirstFaults::default();
     let n = clip.amplitude.len();

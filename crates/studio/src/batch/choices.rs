@@ -31,25 +31,14 @@ const MOST_LOOP_SECS: f64 = MAX_TRACK_SECS - SEAM_SECS;
 /// Largest number of jobs: more would not fit the memory with their results.
 const MOST_JOBS: usize = 1_000_000;
 
-/// Finds the textures, formats and strokes of a manifest.
+/// Finds the textures, formats and strokes of a manifest. `found` are problems that were found before, which come first. Of their
+/// keys, no further problem is reported: it could be a consequence. If a key of [`BatchSource::KEYS`] is among them, the textures
+/// are not looked for.
 ///
 /// # Errors
-/// All problems, each a key of the manifest and what is wrong ([`shagreen_formats::batch_manifest::batch_problems`]).
+/// All problems, also those that were found before, each a key of the manifest and what is wrong
+/// ([`shagreen_formats::batch_manifest::batch_problems`]).
 pub fn plan(
-    manifest: BatchManifest,
-    sources: BatchSources,
-    created_by: &str,
-    reporter: &dyn Reporter,
-) -> Result<BatchPlan, Vec<(String, String)>> {
-    plan_with_problems(manifest, sources, (Vec::new(), created_by), reporter)
-}
-
-/// As [`plan`], for a manifest with problems that were found before, which come first. Of their keys, no further problem is
-/// reported: it could be a consequence. If a key of [`BatchSource::KEYS`] is among them, the textures are not looked for.
-///
-/// # Errors
-/// All problems, also those that were found before.
-pub fn plan_with_problems(
     manifest: BatchManifest,
     sources: BatchSources,
     (found, created_by): (Vec<(String, String)>, &str),
@@ -81,9 +70,7 @@ pub fn plan_with_problems(
     problems.extend(further);
     let plan = BatchPlan { manifest, sources, spaces, outputs, targets, library_sha256: sha256 };
     for (key, text) in plan.rate_problems() {
-        if !problems.iter().any(|(known, _)| *known == key) {
-            problems.push((key, text));
-        }
+        add_problem(&mut problems, key, text);
     }
     let n_jobs = plan.n_textures().saturating_mul(plan.n_jobs_each());
     if problems.is_empty() && n_jobs == 0 {
@@ -99,6 +86,13 @@ pub fn plan_with_problems(
         problems.push(("texture".to_owned(), text));
     }
     if problems.is_empty() { Ok(plan) } else { Err(problems) }
+}
+
+/// Adds a problem, unless one of the same key is known, of which this one could be a consequence.
+pub fn add_problem(problems: &mut Vec<(String, String)>, key: String, text: String) {
+    if !problems.iter().any(|(known, _)| *known == key) {
+        problems.push((key, text));
+    }
 }
 
 struct Finder<'a> {

@@ -12,10 +12,7 @@ use shagreen_formats::batch_manifest::{
 use shagreen_formats::starter::starter_library;
 use shagreen_formats::stroke::TimedContact;
 
-use super::{
-    BatchOptions, BatchOutcome, BatchPlan, BatchProject, BatchSources, LoadedStroke, MARK, plan,
-    plan_with_problems,
-};
+use super::{BatchOptions, BatchOutcome, BatchPlan, BatchProject, BatchSources, LoadedStroke, MARK, plan};
 use crate::project::{new_project, textures_of};
 use crate::report::Warnings;
 use crate::stroke_contacts::StrokeContacts;
@@ -89,7 +86,7 @@ fn planned(text: &str) -> Result<BatchPlan, String> {
         strokes: manifest.strokes.iter().map(|stroke| loaded(&stroke.motion)).collect(),
         actuators: vec![None; manifest.outputs.len()],
     };
-    plan(manifest, sources, "test", &Warnings::default())
+    plan(manifest, sources, (Vec::new(), "test"), &Warnings::default())
         .map_err(|problems| batch_problems(text, problems).to_string())
 }
 
@@ -229,7 +226,7 @@ fn problems_that_were_found_before_come_first_and_hide_their_consequences() {
             strokes: manifest.strokes.iter().map(|stroke| loaded(&stroke.motion)).collect(),
             actuators: vec![None; manifest.outputs.len()],
         };
-        let planned = plan_with_problems(manifest, sources, (found, "test"), &Warnings::default());
+        let planned = plan(manifest, sources, (found, "test"), &Warnings::default());
         planned.err().unwrap().into_iter().map(|(key, _)| key).collect::<Vec<String>>()
     };
     assert_eq!(problems(None), ["output[3].format", "texture[1].ids", "output[1].rate_hz"]);
@@ -322,7 +319,7 @@ fn authored_textures_of_a_project_are_rendered() {
         let strokes = manifest.strokes.iter().map(|stroke| loaded(&stroke.motion)).collect();
         let project = Some(BatchProject { project, placed });
         let sources = BatchSources { library, project, strokes, actuators: vec![None] };
-        plan(manifest, sources, "test", &Warnings::default()).ok().unwrap()
+        plan(manifest, sources, (Vec::new(), "test"), &Warnings::default()).ok().unwrap()
     };
     let root = tempfile::tempdir().unwrap();
     assert_eq!(run(&planned(Shape::default()), root.path(), 1, Shard::WHOLE).n_written(), 2);

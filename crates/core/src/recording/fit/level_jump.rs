@@ -3,7 +3,7 @@
 
 use crate::recording::fit::pieces::Piece;
 
-/// Difference of the levels before and after a moment above which it is a jump, in dB. Less can have other reasons:
+/// Largest difference in dB between the levels before and after a moment that is no jump. So much can have other reasons:
 /// - The standard error of a level from [`LEAST_SECS`] of signal is about 0.6 dB, so that two of them differ by up to 2.6 dB,
 ///   three standard errors.
 /// - The exponents of speed and force differ by about a quarter within a real texture, which makes up to 0.9 dB each over the
